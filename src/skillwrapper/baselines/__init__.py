@@ -1,0 +1,1 @@
+"""The methods that skillwrapper is compared with."""

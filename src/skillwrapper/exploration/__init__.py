@@ -1,0 +1,1 @@
+"""Exploration: which skill sequence to try next."""

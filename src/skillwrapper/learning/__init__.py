@@ -1,0 +1,1 @@
+"""Learning: lifting, operators, inconsistencies, invention, pruning, certification, the loop."""

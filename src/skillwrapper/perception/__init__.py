@@ -1,0 +1,1 @@
+"""Perception: from pictures to a truth table of ground atoms."""

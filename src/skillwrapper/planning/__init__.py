@@ -1,0 +1,1 @@
+"""Planning: from a picture and a goal to skill plans."""

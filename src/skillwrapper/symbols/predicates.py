@@ -1,0 +1,100 @@
+"""Predicates, atoms and literals."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from skillwrapper.errors import SymbolError
+from skillwrapper.world.types import Object
+
+_NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_-]*$")
+
+
+@dataclass(frozen=True, order=True)
+class Predicate:
+    """A named property or relation with a meaning that can be read off a picture.
+
+    Attributes:
+        name: letters, digits, ``_`` and ``-``, starting with a letter.
+        types: the type of every parameter; empty for a nullary predicate.
+        semantics: one sentence that says when it is true.
+
+    Raises:
+        SymbolError: if the name is not a name.
+    """
+
+    name: str
+    types: tuple[str, ...]
+    semantics: str = field(default="", compare=False)
+
+    def __post_init__(self) -> None:
+        if not _NAME.match(self.name):
+            raise SymbolError(
+                f"expected a predicate name of letters, digits, '_' and '-', got '{self.name}'"
+            )
+
+    @property
+    def arity(self) -> int:
+        """Number of parameters."""
+        return len(self.types)
+
+    @property
+    def signature(self) -> str:
+        """E.g. ``holding(?robot, ?pickupable)``."""
+        return f"{self.name}({', '.join('?' + name for name in self.types)})"
+
+    def groundings(self, objects: Sequence[Object]) -> tuple[Atom, ...]:
+        """All ground atoms over distinct objects of the right types, in the objects' order."""
+        return tuple(
+            Atom(self.name, tuple(o.name for o in chosen))
+            for chosen in itertools.permutations(objects, self.arity)
+            if all(t in o.types for t, o in zip(self.types, chosen, strict=True))
+        )
+
+
+@dataclass(frozen=True, order=True)
+class Atom:
+    """A predicate applied to terms; ground if the terms are objects, lifted if variables.
+
+    Attributes:
+        predicate: name of the predicate.
+        terms: names of objects, or of variables, which start with ``?``.
+    """
+
+    predicate: str
+    terms: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.predicate}({', '.join(self.terms)})"
+
+    def substitute(self, binding: Mapping[str, str]) -> Atom:
+        """The atom with every term replaced that the binding names."""
+        return Atom(self.predicate, tuple(binding.get(term, term) for term in self.terms))
+
+
+@dataclass(frozen=True, order=True)
+class Literal:
+    """An atom or its negation.
+
+    Attributes:
+        atom: the atom.
+        positive: False for a negated atom.
+    """
+
+    atom: Atom
+    positive: bool = True
+
+    def __str__(self) -> str:
+        return str(self.atom) if self.positive else f"not {self.atom}"
+
+    def substitute(self, binding: Mapping[str, str]) -> Literal:
+        """The literal with every term replaced that the binding names."""
+        return Literal(self.atom.substitute(binding), self.positive)
+
+
+def all_groundings(predicates: Iterable[Predicate], objects: Sequence[Object]) -> tuple[Atom, ...]:
+    """The ground atoms of several predicates, in the order of the predicates."""
+    return tuple(atom for predicate in predicates for atom in predicate.groundings(objects))

@@ -1,0 +1,91 @@
+"""What a vision-language model is to the rest of the package: text and pictures in, text out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Protocol
+
+from skillwrapper.world.observation import Picture
+
+
+class Role(StrEnum):
+    """What a call is for; every role may have a model of its own."""
+
+    PROPOSE = "propose"
+    INVENT = "invent"
+    EVALUATE = "evaluate"
+    SUMMARISE = "summarise"
+    ACT = "act"
+
+
+@dataclass(frozen=True)
+class ModelRequest:
+    """One call: a rendered prompt and pictures, nothing else.
+
+    Attributes:
+        role: what the call is for.
+        system: system prompt, may be empty.
+        prompt: user prompt.
+        pictures: attached pictures in the order in which the prompt speaks of them.
+        repetition: 0, or the number of the repetition when the same question is asked again.
+    """
+
+    role: Role
+    system: str
+    prompt: str
+    pictures: tuple[Picture, ...] = ()
+    repetition: int = 0
+
+
+@dataclass(frozen=True)
+class Usage:
+    """What a call took.
+
+    Attributes:
+        input_tokens: tokens of prompt and pictures; None if not told.
+        output_tokens: tokens of the reply, reasoning included; None if not told.
+        cost: in US dollars; None if unknown, which is not zero.
+        seconds: wall time of the call.
+    """
+
+    input_tokens: int | None = None
+    output_tokens: int | None = None
+    cost: float | None = None
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class ModelReply:
+    """What a model answered.
+
+    Attributes:
+        text: the reply, not empty.
+        usage: what it took.
+    """
+
+    text: str
+    usage: Usage = field(default_factory=Usage)
+
+
+class VisionLanguageModel(Protocol):
+    """A model behind any provider. Must be safe to call from several threads."""
+
+    @property
+    def name(self) -> str:
+        """Provider and model, e.g. ``openai:gpt-5`` or ``embedded``."""
+        ...
+
+    @property
+    def parameters(self) -> Mapping[str, str | int | float | bool]:
+        """Every setting that changes replies; part of the key of the call store."""
+        ...
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        """Answer one request.
+
+        Raises:
+            ProviderError: if no usable answer comes.
+        """
+        ...

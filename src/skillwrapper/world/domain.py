@@ -1,0 +1,175 @@
+"""A domain: the types, objects and skills that are known from the start, read from YAML."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
+from skillwrapper.world.types import Object, TypeHierarchy
+from skillwrapper.yaml_files import YamlDocument
+
+
+@dataclass(frozen=True)
+class Domain:
+    """What a robot's user declares (the paper's types, objects and skills).
+
+    Attributes:
+        name: e.g. ``"burger"``.
+        agent: one sentence on the robot, used in prompts.
+        description: what the scene looks like, used in prompts; no rule of when a skill works.
+        types: hierarchy of object types.
+        objects: all objects; a scene may hold a part of them.
+        skills: the black-box skills.
+        failures_change_nothing: whether a failed skill is known to leave the state as it
+            was (DESIGN.md D11).
+    """
+
+    name: str
+    agent: str
+    description: str
+    types: TypeHierarchy
+    objects: tuple[Object, ...]
+    skills: tuple[Skill, ...]
+    failures_change_nothing: bool = False
+
+    @cached_property
+    def object_by_name(self) -> dict[str, Object]:
+        """Objects by their names."""
+        return {o.name: o for o in self.objects}
+
+    @cached_property
+    def skill_by_name(self) -> dict[str, Skill]:
+        """Skills by their names."""
+        return {s.name: s for s in self.skills}
+
+    @cached_property
+    def skill_instances(self) -> tuple[SkillInstance, ...]:
+        """All skill instances over all objects."""
+        return ground_skills(self.skills, self.objects)
+
+    def scene_objects(self, scene: tuple[str, ...]) -> tuple[Object, ...]:
+        """The objects of a scene, in the domain's order."""
+        return tuple(o for o in self.objects if o.name in scene)
+
+    def check_instance(self, instance: SkillInstance) -> None:
+        """Raise ``UnknownNameError`` or ``ConfigurationError`` if there is no such instance."""
+        skill = self.skill_by_name.get(instance.skill)
+        if skill is None:
+            raise UnknownNameError("skill", instance.skill, self.skill_by_name)
+        for name in instance.arguments:
+            if name not in self.object_by_name:
+                raise UnknownNameError("object", name, self.object_by_name)
+        if not skill.accepts([self.object_by_name[name] for name in instance.arguments]):
+            expected = ", ".join(p.type for p in skill.parameters)
+            raise ConfigurationError(
+                f"{instance}: expected different objects of the types ({expected})"
+            )
+
+
+class _TypeEntry(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    parents: list[str] = Field(default_factory=list)
+    description: str = ""
+
+
+class _ObjectEntry(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    types: list[str] = Field(min_length=1)
+    description: str = ""
+
+
+class _ParameterEntry(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")
+    type: str
+    role: str = ""
+
+
+class _SkillEntry(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    parameters: list[_ParameterEntry]
+    description: str = ""
+
+
+class _DomainFile(BaseModel):
+    """The layout of ``domain.yaml``."""
+
+    model_config = ConfigDict(extra="forbid")
+    name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")
+    agent: str
+    description: str
+    failures_change_nothing: bool = False
+    types: dict[str, _TypeEntry]
+    objects: dict[str, _ObjectEntry]
+    skills: dict[str, _SkillEntry]
+
+
+def load_domain(path: Path) -> Domain:
+    """Read a domain from its YAML file.
+
+    Raises:
+        ConfigurationError: with file, line and what was expected.
+    """
+    document = YamlDocument.read(path)
+    entries = document.validate(_DomainFile)
+    hierarchy = _build_types(document, entries)
+    return Domain(
+        name=entries.name,
+        agent=entries.agent.strip(),
+        description=entries.description.strip(),
+        types=hierarchy,
+        objects=_build_objects(document, entries, hierarchy),
+        skills=_build_skills(document, entries),
+        failures_change_nothing=entries.failures_change_nothing,
+    )
+
+
+def _build_types(document: YamlDocument, entries: _DomainFile) -> TypeHierarchy:
+    for name, entry in entries.types.items():
+        for parent in entry.parents:
+            _check_type(document, entries, parent, ("types", name, "parents"))
+    try:
+        return TypeHierarchy(
+            parents={name: tuple(e.parents) for name, e in entries.types.items()},
+            descriptions={name: e.description for name, e in entries.types.items()},
+        )
+    except ConfigurationError as error:
+        raise ConfigurationError(f"{document.place(('types',))}: {error}") from error
+
+
+def _build_objects(
+    document: YamlDocument, entries: _DomainFile, hierarchy: TypeHierarchy
+) -> tuple[Object, ...]:
+    objects = []
+    for name, entry in entries.objects.items():
+        for type_name in entry.types:
+            _check_type(document, entries, type_name, ("objects", name, "types"))
+        types = tuple(sorted(hierarchy.closure(entry.types)))
+        objects.append(Object(name, types, entry.description))
+    return tuple(objects)
+
+
+def _build_skills(document: YamlDocument, entries: _DomainFile) -> tuple[Skill, ...]:
+    skills = []
+    for name, entry in entries.skills.items():
+        for number, parameter in enumerate(entry.parameters):
+            place = ("skills", name, "parameters", number, "type")
+            _check_type(document, entries, parameter.type, place)
+        parameters = tuple(Parameter(p.name, p.type, p.role) for p in entry.parameters)
+        if len({p.name for p in parameters}) < len(parameters):
+            where = document.place(("skills", name, "parameters"))
+            raise ConfigurationError(f"{where}: two parameters of '{name}' have the same name")
+        skills.append(Skill(name, parameters, entry.description))
+    return tuple(skills)
+
+
+def _check_type(
+    document: YamlDocument, entries: _DomainFile, name: str, place: tuple[str | int, ...]
+) -> None:
+    if name not in entries.types:
+        raise UnknownNameError("type", name, entries.types, document.place(place))

@@ -1,0 +1,55 @@
+"""What happened: outcomes, transitions and episodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.skills import SkillInstance
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one execution of a skill instance brought.
+
+    Attributes:
+        success: whether the skill reached its goal, as the robot itself reports.
+        observation: what is seen afterwards.
+        message: why it failed, for people; never used for learning.
+    """
+
+    success: bool
+    observation: Observation
+    message: str = ""
+
+
+@dataclass(frozen=True)
+class Transition:
+    """One execution: what was seen before, what was run, and what came of it.
+
+    Attributes:
+        before: observation before the execution.
+        instance: the skill instance that was run.
+        success: whether it succeeded.
+        after: observation after the execution.
+    """
+
+    before: Observation
+    instance: SkillInstance
+    success: bool
+    after: Observation
+
+
+@dataclass(frozen=True)
+class Episode:
+    """A sequence of transitions after one reset of the environment.
+
+    Attributes:
+        scene: names of the objects that were present, sorted.
+        seed: the seed given to ``reset``.
+        transitions: in the order of execution; each starts where the one before ended.
+    """
+
+    scene: tuple[str, ...]
+    seed: int
+    transitions: tuple[Transition, ...]
