@@ -1,1 +1,1 @@
-"""Domains that come with the package."""
+"""Bundled domains: simulators, their pictures, problems and expert models."""
