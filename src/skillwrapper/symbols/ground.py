@@ -37,6 +37,13 @@ class AtomSpace:
     predicates: tuple[Predicate, ...]
     objects: tuple[Object, ...]
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.predicates, self.objects))
+
     @cached_property
     def atoms(self) -> tuple[Atom, ...]:
         """The ground atoms in the order of their columns."""
@@ -46,6 +53,11 @@ class AtomSpace:
     def column(self) -> dict[Atom, int]:
         """The column of every ground atom."""
         return {atom: number for number, atom in enumerate(self.atoms)}
+
+    @cached_property
+    def atoms_of(self) -> dict[str, tuple[Atom, ...]]:
+        """The ground atoms of every predicate."""
+        return {p.name: p.groundings(self.objects) for p in self.predicates}
 
     def columns(self, atoms: Iterable[Atom]) -> Columns:
         """Columns of several atoms, sorted."""
@@ -100,15 +112,21 @@ class GroundOperator:
         met = (positive == TRUE).all(axis=1) & (negative == FALSE).all(axis=1)
         return np.where(violated, FALSE, np.where(met, TRUE, UNKNOWN)).astype(np.int8)
 
-    def apply(self, states: Labels) -> Labels:
-        """The next states (n, atoms), whether applicable or not."""
-        following = states.copy()
+    def effects(self, states: Labels) -> Labels:
+        """The effect in each state (n, atoms): 1 added, -1 deleted, 0 neither."""
+        effects = np.zeros_like(states)
         for effect in self.conditional:
             meets = (states[:, effect.required_true] == TRUE).all(axis=1)
             meets &= (states[:, effect.required_false] == FALSE).all(axis=1)
-            following[meets, effect.column] = effect.becomes
-        following[:, self.deleted] = FALSE
-        following[:, self.added] = TRUE
+            effects[meets, effect.column] = 1 if effect.becomes == TRUE else -1
+        effects[:, self.deleted] = -1
+        effects[:, self.added] = 1
+        return effects
+
+    def apply(self, states: Labels) -> Labels:
+        """The next states (n, atoms), whether applicable or not."""
+        effects = self.effects(states)
+        following: Labels = np.where(effects == 0, states, effects > 0).astype(np.int8)
         return following
 
 
@@ -192,9 +210,7 @@ def absent_atoms(absence: Absence, binding: dict[str, str], space: AtomSpace) ->
     """The ground atoms that a universal absence says are false, under a binding."""
     pattern = absence.atom.substitute(binding)
     taken = set(binding.values())
-    for atom in space.atoms:
-        if atom.predicate != pattern.predicate:
-            continue
+    for atom in space.atoms_of.get(pattern.predicate, ()):
         pairs = zip(pattern.terms, atom.terms, strict=True)
         if all(
             (got not in taken) if want in absence.quantified else want == got for want, got in pairs

@@ -4,23 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 
+from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols.predicates import Atom, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
-
-
-class InconsistencyKind(StrEnum):
-    """Why a predicate is missing (paper, Conditions 1 and 2; DESIGN.md D5 and D1)."""
-
-    PRECONDITION = "precondition"
-    EFFECT = "effect"
-    DETERMINISM = "determinism"
-    UNEXPLAINED = "unexplained"
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,161 @@
+"""The certificate: Lemma 1 and Theorem 1, checked on the recorded data (DESIGN.md D15)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.lifted_states import LiftedState, lifted_state
+from skillwrapper.learning.lifting import LiftedChange
+from skillwrapper.learning.predictions import Application, TablePrediction
+from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Labels
+
+
+@dataclass(frozen=True)
+class Violation:
+    """A transition that breaks a statement.
+
+    Attributes:
+        statement: ``"lemma1"`` or ``"theorem1"``.
+        skill: name of the skill.
+        transition: number of the transition in the data.
+        partner: for Lemma 1, number of the other transition; else None.
+        reason: which part of the statement, for people.
+    """
+
+    statement: str
+    skill: str
+    transition: int
+    partner: int | None
+    reason: str
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What was checked, and what was found.
+
+    Attributes:
+        transitions: number of transitions in the data.
+        decided: transitions whose labels decide the statements.
+        undecided: transitions that hang on an unknown label (D10).
+        no_ops: successes that changed nothing visible (D7), exempt from comparing changes.
+        violations: every violation.
+    """
+
+    transitions: int
+    decided: int
+    undecided: int
+    no_ops: int
+    violations: tuple[Violation, ...]
+
+    def count(self, statement: str) -> int:
+        """Number of violations of ``"lemma1"`` or ``"theorem1"``."""
+        return sum(v.statement == statement for v in self.violations)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            **asdict(self),
+            "lemma1_violations": self.count("lemma1"),
+            "theorem1_violations": self.count("theorem1"),
+        }
+
+
+def certify(fit: Fit) -> Certificate:
+    """Check Lemma 1 and Theorem 1 over all recorded transitions, skill by skill."""
+    violations: list[Violation] = []
+    total = undecided = no_ops = 0
+    for name, skill_fit in fit.skills.items():
+        violations += _check_lemma(name, skill_fit.predictions)
+        for prediction in skill_fit.predictions:
+            violations += _check_theorem(name, prediction)
+            total += len(prediction.table)
+            undecided += int(_undecided(prediction).sum())
+            no_ops += int((prediction.table.success & prediction.table.unchanged).sum())
+    return Certificate(total, total - undecided, undecided, no_ops, tuple(violations))
+
+
+def _undecided(prediction: TablePrediction) -> NDArray[np.bool_]:
+    undecided: NDArray[np.bool_] = prediction.undetermined | (prediction.executable == UNKNOWN)
+    return undecided
+
+
+def _check_lemma(skill: str, predictions: Sequence[TablePrediction]) -> Iterator[Violation]:
+    """No success and failure share a lifted start, or a lifted change."""
+    starts: dict[LiftedState, int] = {}
+    changes: dict[LiftedChange, int] = {}
+    for prediction in predictions:
+        for number, start in _lifted_starts(prediction, success=True):
+            starts.setdefault(start, number)
+        for number, change in _lifted_changes(prediction, success=True):
+            changes.setdefault(change, number)
+    for prediction in predictions:
+        for number, start in _lifted_starts(prediction, success=False):
+            if start in starts:
+                yield Violation("lemma1", skill, number, starts[start], "same lifted start")
+        for number, change in _lifted_changes(prediction, success=False):
+            if change in changes:
+                yield Violation("lemma1", skill, number, changes[change], "same lifted change")
+
+
+def _lifted_starts(
+    prediction: TablePrediction, *, success: bool
+) -> Iterator[tuple[int, LiftedState]]:
+    table = prediction.table
+    remembered: dict[tuple[int, bytes], LiftedState] = {}
+    for row in np.flatnonzero((table.success == success) & ~_undecided(prediction)):
+        key = (int(table.which[row]), table.before[row].tobytes())
+        if key not in remembered:
+            instance = table.instances[table.which[row]]
+            remembered[key] = lifted_state(table.space, table.before[row], instance)
+        yield int(table.ids[row]), remembered[key]
+
+
+def _lifted_changes(
+    prediction: TablePrediction, *, success: bool
+) -> Iterator[tuple[int, LiftedChange]]:
+    table = prediction.table
+    for group in prediction.groups:
+        for row in group.rows:
+            exempt = success and table.unchanged[row]
+            if table.success[row] == success and not exempt:
+                yield int(table.ids[row]), group.lifting.change
+
+
+def _check_theorem(skill: str, prediction: TablePrediction) -> Iterator[Violation]:
+    """Each success has an applicable operator with its change; no failure has either."""
+    table = prediction.table
+    change = table.change()
+    undecided = _undecided(prediction)
+    right = np.zeros(len(table), dtype=bool)
+    similar = np.zeros(len(table), dtype=bool)
+    for found in prediction.applications:
+        same = _makes_change(found, prediction, change)
+        right[found.rows] |= same & (found.applicability == TRUE)
+        similar[found.rows] |= same
+    for row in np.flatnonzero(~undecided):
+        number = int(table.ids[row])
+        if table.success[row] and not right[row]:
+            reason = "no applicable operator makes the change"
+            yield Violation("theorem1", skill, number, None, reason)
+        if not table.success[row] and prediction.executable[row] != FALSE:
+            yield Violation("theorem1", skill, number, None, "an operator applies to a failure")
+        elif not table.success[row] and similar[row]:
+            reason = "an operator makes the change of a failure"
+            yield Violation("theorem1", skill, number, None, reason)
+
+
+def _makes_change(
+    found: Application, prediction: TablePrediction, change: Labels
+) -> NDArray[np.bool_]:
+    """Whether the whole known change of the transitions is the operator's effect (rows,)."""
+    table = prediction.table
+    effect = found.ground.effects(table.before[found.rows])
+    known = ~table.undetermined()[found.rows]
+    same: NDArray[np.bool_] = (np.where(known, effect, 0) == change[found.rows]).all(axis=1)
+    return same

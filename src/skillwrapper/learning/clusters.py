@@ -1,0 +1,123 @@
+"""Clusters: the successes of a skill that made the same lifted change (paper, Section 3.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.learning.data import SkillData, SkillTable
+from skillwrapper.learning.lifting import LiftedChange, Lifting, lift_change
+from skillwrapper.symbols import AtomSpace, Labels, Literal
+
+
+@dataclass(frozen=True)
+class Group:
+    """Transitions of one skill instance that made the same ground change.
+
+    Attributes:
+        table: where they stand.
+        rows: their rows in the table, in order of time.
+        lifting: the change, lifted.
+    """
+
+    table: SkillTable
+    rows: NDArray[np.intp]
+    lifting: Lifting
+
+    @property
+    def before(self) -> Labels:
+        """Labels before the execution (rows, atoms)."""
+        return self.table.before[self.rows]
+
+    @property
+    def types(self) -> tuple[tuple[str, ...], ...]:
+        """The types of the objects at the positions of the lifted change."""
+        by_name = {o.name: o.types for o in self.table.space.objects}
+        return tuple(by_name[name] for name in self.lifting.objects)
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Groups with the same lifted change; one operator is learned from each cluster.
+
+    Attributes:
+        change: the lifted change they share.
+        groups: the groups, in the order of the data.
+    """
+
+    change: LiftedChange
+    groups: tuple[Group, ...]
+
+    @property
+    def ids(self) -> list[int]:
+        """Numbers of the transitions, in order of time."""
+        return sorted(int(i) for g in self.groups for i in g.table.ids[g.rows])
+
+
+def cluster_successes(data: SkillData) -> tuple[Cluster, ...]:
+    """Cluster the successes of a skill by their lifted changes, sorted by change.
+
+    A success of which the change of an atom of its arguments is unknown founds no cluster
+    (DESIGN.md D10).
+    """
+    found: dict[LiftedChange, list[Group]] = {}
+    for table in data:
+        for group in group_by_change(table, table.success & ~touches_unknown(table)):
+            found.setdefault(group.lifting.change, []).append(group)
+    return tuple(Cluster(change, tuple(found[change])) for change in sorted(found))
+
+
+def group_by_change(table: SkillTable, mask: NDArray[np.bool_]) -> Iterator[Group]:
+    """Group the masked transitions of a table by skill instance and ground change."""
+    rows = np.flatnonzero(mask)
+    if len(rows) == 0:
+        return
+    change = table.change()[rows]
+    for members in _equal_rows(table.which[rows], change):
+        first = int(members[0])
+        instance = table.instances[table.which[rows[first]]]
+        literals = changed_literals(table.space, change[first])
+        yield Group(table, rows[members], lift_change(literals, instance.arguments))
+
+
+def changed_literals(space: AtomSpace, change: Labels) -> list[Literal]:
+    """The literals that became true, from a signed change (atoms,)."""
+    return [Literal(space.atoms[i], bool(change[i] > 0)) for i in np.flatnonzero(change)]
+
+
+def touches_unknown(table: SkillTable) -> NDArray[np.bool_]:
+    """Whether a transition (n,) has an undetermined atom that is nullary or of an argument."""
+    undetermined = table.undetermined()
+    touched = np.zeros(len(table), dtype=bool)
+    if not undetermined.any():
+        return touched
+    for number, instance in enumerate(table.instances):
+        arguments = set(instance.arguments)
+        columns = [
+            i
+            for i, atom in enumerate(table.space.atoms)
+            if not atom.terms or arguments.intersection(atom.terms)
+        ]
+        mine = table.which == number
+        touched[mine] = undetermined[np.ix_(mine, columns)].any(axis=1)
+    return touched
+
+
+def _equal_rows(which: NDArray[np.intp], change: Labels) -> Iterator[NDArray[np.intp]]:
+    """Index sets of rows that agree in both, in the order of their first occurrence."""
+    packed = np.hstack(
+        [
+            which.astype(np.int32)[:, np.newaxis].view(np.uint8).reshape(len(which), -1),
+            np.packbits(change > 0, axis=1),
+            np.packbits(change < 0, axis=1),
+        ]
+    )
+    keys = np.ascontiguousarray(packed).view(f"V{packed.shape[1]}").ravel()
+    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
+    order = np.argsort(inverse, kind="stable")
+    bounds = np.searchsorted(inverse[order], np.arange(len(first) + 1))
+    for number in np.argsort(first, kind="stable"):
+        yield order[bounds[number] : bounds[number + 1]]

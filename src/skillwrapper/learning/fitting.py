@@ -1,0 +1,161 @@
+"""Fitting: operators and inconsistencies of a vocabulary, skill by skill, nothing done twice."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from skillwrapper.learning.data import SkillData
+from skillwrapper.learning.dataset import Dataset, TruthSource
+from skillwrapper.learning.inconsistencies import (
+    Inconsistency,
+    Witness,
+    count_valid_effects,
+    count_valid_executability,
+    find_inconsistencies,
+)
+from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.learning.operators import LearnedOperator
+from skillwrapper.learning.predictions import TablePrediction, predict
+from skillwrapper.learning.remedies import learn_deterministic_operators
+from skillwrapper.symbols import UNKNOWN, AbstractModel, AtomSpace, Predicate
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.skills import Skill
+
+
+@dataclass(frozen=True)
+class SkillFit:
+    """What was learned of one skill.
+
+    Attributes:
+        skill: its name.
+        operators: its operators, one a cluster (or a part of a cluster, D5).
+        predictions: what they say of the skill's own transitions.
+        inconsistencies: all, in order of kind and time.
+    """
+
+    skill: str
+    operators: tuple[LearnedOperator, ...]
+    predictions: tuple[TablePrediction, ...]
+    inconsistencies: tuple[Inconsistency, ...]
+
+    def score(self, kind: InconsistencyKind) -> float:
+        """Share of valid transitions (Algorithm 5 of the paper, with DESIGN.md D6).
+
+        Executability counts for PRECONDITION and DETERMINISM, changes for the other kinds;
+        1.0 if no transition is decided.
+        """
+        if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.DETERMINISM):
+            valid, decided = count_valid_executability(self.predictions)
+        else:
+            clusters = [learned.cluster for learned in self.operators]
+            valid, decided = count_valid_effects(self.predictions, clusters)
+        return valid / decided if decided else 1.0
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What was learned with one vocabulary.
+
+    Attributes:
+        domain: the domain.
+        predicates: the vocabulary, tautologies included.
+        skills: what was learned of each skill.
+    """
+
+    domain: Domain
+    predicates: tuple[Predicate, ...]
+    skills: dict[str, SkillFit]
+
+    @cached_property
+    def inconsistencies(self) -> tuple[Inconsistency, ...]:
+        """All inconsistencies of all skills."""
+        return tuple(i for fit in self.skills.values() for i in fit.inconsistencies)
+
+    @cached_property
+    def witnesses(self) -> frozenset[Witness]:
+        """All inconsistencies, in a form that can be compared across vocabularies."""
+        return frozenset(i.witness for i in self.inconsistencies)
+
+    @cached_property
+    def operators(self) -> tuple[LearnedOperator, ...]:
+        """All operators of all skills."""
+        return tuple(o for fit in self.skills.values() for o in fit.operators)
+
+    @property
+    def model(self) -> AbstractModel:
+        """The learned abstract model."""
+        return AbstractModel(
+            self.domain, self.predicates, tuple(o.operator for o in self.operators)
+        )
+
+
+class Fitter:
+    """Learns operators for vocabularies; remembers what it learned of unchanged skills.
+
+    Adding an episode relearns only the skills that occur in it, unless it turned a tautology
+    into a predicate that says something.
+    """
+
+    def __init__(self, domain: Domain, dataset: Dataset, truth: TruthSource) -> None:
+        self.domain = domain
+        self.dataset = dataset
+        self.truth = truth
+        self._fits: dict[tuple[str, int, tuple[Predicate, ...]], SkillFit] = {}
+        self._tautology: dict[tuple[Predicate, int], bool] = {}
+
+    def fit(self, predicates: Sequence[Predicate]) -> Fit:
+        """Learn all skills with a vocabulary."""
+        useful = tuple(p for p in predicates if not self.is_tautology(p))
+        skills = {s.name: self._fit_skill(s, useful) for s in self.domain.skills}
+        return Fit(self.domain, tuple(predicates), skills)
+
+    def is_tautology(self, predicate: Predicate) -> bool:
+        """Whether all known labels of a predicate are equal, over all data (DESIGN.md D9)."""
+        key = (predicate, len(self.dataset))
+        if key not in self._tautology:
+            seen: set[int] = set()
+            for scene in self.dataset.scenes:
+                space = AtomSpace((predicate,), self.dataset.objects(scene))
+                labels = self.truth.labels(space, self.dataset.observations(scene))
+                seen |= {int(v) for v in np.unique(labels)} - {UNKNOWN}
+            self._tautology[key] = len(seen) < 2
+        return self._tautology[key]
+
+    def forget(self) -> None:
+        """Drop remembered fits of earlier data; called when an iteration ends."""
+        size = {s.name: len(self.dataset.numbers_of(s.name)) for s in self.domain.skills}
+        self._fits = {k: v for k, v in self._fits.items() if size[k[0]] == k[1]}
+        self._tautology = {k: v for k, v in self._tautology.items() if k[1] == len(self.dataset)}
+
+    def _fit_skill(self, skill: Skill, predicates: tuple[Predicate, ...]) -> SkillFit:
+        key = (skill.name, len(self.dataset.numbers_of(skill.name)), predicates)
+        if key not in self._fits:
+            self._fits[key] = fit_skill(
+                self.domain,
+                skill,
+                self.dataset.skill_data(skill.name, predicates, self.truth),
+                predicates,
+            )
+        return self._fits[key]
+
+
+def fit_skill(
+    domain: Domain,
+    skill: Skill,
+    data: SkillData,
+    predicates: Sequence[Predicate],
+) -> SkillFit:
+    """Learn one skill from its transitions."""
+    operators = learn_deterministic_operators(domain, skill, data, predicates)
+    predictions = predict(data, operators)
+    clusters = [learned.cluster for learned in operators]
+    return SkillFit(
+        skill.name,
+        operators,
+        predictions,
+        find_inconsistencies(skill.name, predictions, clusters),
+    )

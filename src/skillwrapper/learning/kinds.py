@@ -1,0 +1,20 @@
+"""The four kinds of inconsistency."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class InconsistencyKind(StrEnum):
+    """Why a predicate is missing.
+
+    PRECONDITION: a success and a failure are both predicted to succeed (paper, Condition 1).
+    EFFECT: a success and a failure made the same change (paper, Condition 2).
+    DETERMINISM: an applicable operator predicts another change than was seen (DESIGN.md D5).
+    UNEXPLAINED: something changed that is connected to no argument (DESIGN.md D1).
+    """
+
+    PRECONDITION = "precondition"
+    EFFECT = "effect"
+    DETERMINISM = "determinism"
+    UNEXPLAINED = "unexplained"

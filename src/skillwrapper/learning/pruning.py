@@ -1,0 +1,86 @@
+"""Pruning: predicates that the data can do without are set dormant (DESIGN.md D9)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.vocabulary import Vocabulary
+from skillwrapper.symbols import UNKNOWN, AtomSpace, Predicate
+
+
+@dataclass(frozen=True)
+class Pruned:
+    """A predicate that was set dormant, and why."""
+
+    predicate: Predicate
+    reason: str
+
+
+def prune(fitter: Fitter, vocabulary: Vocabulary) -> tuple[Pruned, ...]:
+    """Merge synonyms and antonyms, then set dormant what is superfluous."""
+    return (*_merge(fitter, vocabulary), *_drop_superfluous(fitter, vocabulary))
+
+
+def _merge(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
+    """Of predicates with equal or opposite labels over all data the first invented stays."""
+    kept: list[Predicate] = []
+    pruned = []
+    for predicate in vocabulary.active:
+        for other in kept:
+            relation = _relation(fitter, other, predicate)
+            if relation:
+                vocabulary.set_dormant(predicate)
+                pruned.append(Pruned(predicate, f"{relation} of {other.name} on all data"))
+                break
+        else:
+            kept.append(predicate)
+    return pruned
+
+
+def _relation(fitter: Fitter, first: Predicate, second: Predicate) -> str:
+    """``"synonym"``, ``"antonym"`` or nothing."""
+    if first.types != second.types:
+        return ""
+    equal = opposite = True
+    for scene in fitter.dataset.scenes:
+        objects = fitter.dataset.objects(scene)
+        observations = fitter.dataset.observations(scene)
+        a = fitter.truth.labels(AtomSpace((first,), objects), observations)
+        b = fitter.truth.labels(AtomSpace((second,), objects), observations)
+        known = (a != UNKNOWN) & (b != UNKNOWN)
+        equal &= bool(np.array_equal(a[known], b[known]))
+        opposite &= bool(np.array_equal(a[known], 1 - b[known]))
+    return "synonym" if equal else "antonym" if opposite else ""
+
+
+def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
+    """Set dormant, least used first, each predicate whose removal adds no inconsistency."""
+    pruned: list[Pruned] = []
+    tried: set[Predicate] = set()
+    while True:
+        fit = fitter.fit(vocabulary.active)
+        left = [p for p in vocabulary.active if p not in tried]
+        if not left:
+            return pruned
+        use = _usage(fit)
+        predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
+        tried.add(predicate)
+        without = fitter.fit([p for p in vocabulary.active if p != predicate])
+        if without.witnesses <= fit.witnesses:
+            vocabulary.set_dormant(predicate)
+            pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
+
+
+def _usage(fit: Fit) -> Counter[str]:
+    """How often each predicate occurs in the operators."""
+    use: Counter[str] = Counter()
+    for learned in fit.operators:
+        operator = learned.operator
+        use.update(literal.atom.predicate for literal in operator.preconditions)
+        use.update(absence.atom.predicate for absence in operator.absences)
+        use.update(atom.predicate for atom in operator.add_effects | operator.delete_effects)
+    return use
