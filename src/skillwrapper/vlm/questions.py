@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols.predicates import Atom, Predicate
@@ -117,9 +117,15 @@ class EvaluationQuestion:
 
 @dataclass(frozen=True)
 class EvaluationAnswer:
-    """Labels: True, False, or None for unknown; every grounding asked for has an entry."""
+    """Labels: True, False, or None for unknown; every grounding asked for has an entry.
+
+    Attributes:
+        labels: the label of every grounding.
+        agreement: if there were several votes, the share of them that the label has, 0 to 1.
+    """
 
     labels: Mapping[Atom, bool | None]
+    agreement: Mapping[Atom, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -135,7 +141,13 @@ class ActionQuestion:
 
 @dataclass(frozen=True)
 class ActionAnswer:
-    """The plan from here on; ``done`` and ``impossible`` as the model says."""
+    """The plan from here on; ``done`` and ``impossible`` as the model says.
+
+    Attributes:
+        plan: what to do next, in order.
+        done: the model says that the goal is reached already; the plan is then empty.
+        impossible: the model says that the goal cannot be reached; the plan is then empty.
+    """
 
     plan: tuple[SkillInstance, ...]
     done: bool = False

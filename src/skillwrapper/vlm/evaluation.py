@@ -1,0 +1,107 @@
+"""Two-stage evaluation: a free judgement of a picture, then a summary with one label an atom."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from skillwrapper.symbols.predicates import Atom, all_groundings
+from skillwrapper.vlm.models import ModelSet
+from skillwrapper.vlm.parsing import parse_labels
+from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.vlm.requests import RequestBuilder
+from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.waves import run_wave
+
+_Labels = dict[Atom, bool | None]
+
+
+@dataclass(frozen=True)
+class _Task:
+    """One vote on one batch of groundings of one question."""
+
+    question: EvaluationQuestion
+    atoms: tuple[Atom, ...]
+    vote: int
+
+
+class Evaluator:
+    """Labels groundings.
+
+    Args:
+        models: the models; the roles ``evaluate`` and ``summarise`` are used.
+        requests: renders the prompts.
+        settings: batch size, calls in flight, votes, how often to ask again.
+    """
+
+    def __init__(
+        self, models: ModelSet, requests: RequestBuilder, settings: AssistantSettings
+    ) -> None:
+        self._models, self._requests, self._settings = models, requests, settings
+
+    def evaluate(self, questions: Sequence[EvaluationQuestion]) -> list[EvaluationAnswer]:
+        """Answer all questions in one wave of calls."""
+        tasks = [task for question in questions for task in self._tasks(question)]
+        results = iter(run_wave(self._label, tasks, self._settings.parallel))
+        return [self._answer(question, results) for question in questions]
+
+    def _tasks(self, question: EvaluationQuestion) -> Iterator[_Task]:
+        atoms = all_groundings(question.predicates, question.objects)
+        size = self._settings.batch_size
+        for start in range(0, len(atoms), size):
+            for vote in range(self._settings.votes):
+                yield _Task(question, atoms[start : start + size], vote)
+
+    def _label(self, task: _Task) -> _Labels:
+        """The labels of one task; what stays unanswered is unknown (DESIGN.md D10)."""
+        labels: _Labels = {}
+        missing, problem = task.atoms, ""
+        for time in range(self._settings.asks):
+            found, missing, problem = self._ask(task, missing, time, problem)
+            labels.update(found)
+            if not missing:
+                break
+        return {atom: labels.get(atom) for atom in task.atoms}
+
+    def _ask(
+        self, task: _Task, atoms: tuple[Atom, ...], time: int, problem: str
+    ) -> tuple[Mapping[Atom, bool | None], tuple[Atom, ...], str]:
+        repetition = task.vote * self._settings.asks + time
+        request = self._requests.evaluation(task.question, atoms)
+        if time:
+            request = self._requests.again(request, problem, time)
+        free = self._models.complete(replace(request, repetition=repetition)).text
+        summary = self._requests.summary(task.question, atoms, free)
+        if time:
+            summary = self._requests.again(summary, problem, time)
+        reply = self._models.complete(replace(summary, repetition=repetition)).text
+        parsed = parse_labels(reply, atoms)
+        named = ", ".join(map(str, parsed.missing[:3]))
+        return parsed.labels, parsed.missing, f"no clear judgement on {named}"
+
+    def _answer(self, question: EvaluationQuestion, results: Iterator[_Labels]) -> EvaluationAnswer:
+        """Join the batches of a question, taking as many results as it had tasks."""
+        labels: _Labels = {}
+        agreement: dict[Atom, float] = {}
+        for task in self._tasks(question):
+            if task.vote == 0:
+                votes = [next(results) for _ in range(self._settings.votes)]
+                for atom in task.atoms:
+                    label, share = majority([vote[atom] for vote in votes], self._settings.margin)
+                    labels[atom], agreement[atom] = label, share
+        return EvaluationAnswer(labels, agreement if self._settings.votes > 1 else {})
+
+
+def majority(votes: Sequence[bool | None], margin: float = 0.0) -> tuple[bool | None, float]:
+    """The label most votes are for, and the share of votes that are for it.
+
+    Args:
+        votes: at least one; a None counts for neither side.
+        margin: by what share of all votes the winner must lead; a tie is always unknown.
+    """
+    counts = Counter(votes)
+    yes, no = counts[True], counts[False]
+    if yes == no or abs(yes - no) / len(votes) < margin:
+        return None, max(yes, no, counts[None]) / len(votes)
+    return yes > no, max(yes, no) / len(votes)

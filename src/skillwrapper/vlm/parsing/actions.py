@@ -1,0 +1,86 @@
+"""Reading a plan out of a reply (the ViLa baseline)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from skillwrapper.vlm.parsing.calls import Call, find_calls
+from skillwrapper.vlm.parsing.instances import InstanceReader
+from skillwrapper.vlm.parsing.lines import excerpt, plain_lines, without_lead
+from skillwrapper.vlm.parsing.structured import flatten_json
+from skillwrapper.world.skills import Skill, SkillInstance
+from skillwrapper.world.types import Object
+
+_LABEL = re.compile(
+    r"^(?:plan|answer|next (?:action|skill|step)|action|skill|result|final answer|status)"
+    r"\s*\d*\s*[:=-]+\s*",
+    re.IGNORECASE,
+)
+_DONE = re.compile(
+    r"^\W*(?:done|task (?:is )?(?:done|complete|completed|finished)"
+    r"|(?:the )?goal (?:is |has been )?(?:already )?reached)\W*$",
+    re.IGNORECASE,
+)
+_IMPOSSIBLE = re.compile(
+    r"^\W*(?:(?:the |this )?(?:task|goal) (?:is|seems) )?"
+    r"(?:impossible|infeasible|unsolvable|not possible)(?: to (?:solve|reach))?\W*$",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True)
+class ParsedPlan:
+    """What a reply plans.
+
+    Attributes:
+        plan: the skills in their order.
+        done: whether it says that nothing is left to do; a ``Done`` that ends a plan is none.
+        impossible: whether it says that the goal cannot be reached.
+        unusable: what could not be used, with the reason.
+    """
+
+    plan: tuple[SkillInstance, ...]
+    done: bool
+    impossible: bool
+    unusable: tuple[str, ...]
+
+
+def parse_plan(reply: str, skills: Sequence[Skill], objects: Sequence[Object]) -> ParsedPlan:
+    """Read the plan that follows the reasoning. Never raises."""
+    reader = InstanceReader(skills, objects)
+    lines = [_content(line) for line in plain_lines(flatten_json(reply))]
+    steps, unusable = [], []
+    for call in _plan_calls(lines, reader):
+        instance = reader.read(call)
+        if isinstance(instance, str):
+            unusable.append(excerpt(instance, 160))
+        else:
+            steps.append(instance)
+    done = any(_DONE.match(line) for line in lines)
+    impossible = not steps and any(_IMPOSSIBLE.match(line) for line in lines)
+    if not (steps or done or impossible or unusable):
+        unusable.append(f"no plan in the reply: '{excerpt(reply)}'")
+    return ParsedPlan(
+        tuple(steps), done and not steps and not unusable, impossible, tuple(unusable)
+    )
+
+
+def _content(line: str) -> str:
+    return _LABEL.sub("", without_lead(line), count=1).strip().strip("\"',")
+
+
+def _plan_calls(lines: list[str], reader: InstanceReader) -> list[Call]:
+    """The calls of the lines that begin with a skill; where there are none, of the last that
+    mentions any. Skills mentioned in the reasoning are not part of the plan.
+    """
+    found = [(line, find_calls(line)) for line in lines]
+    found = [(line, calls) for line, calls in found if calls]
+    listed = [calls for line, calls in found if calls[0].start == 0]
+    chosen = listed or [calls for _, calls in found if any(map(_known(reader), calls))][-1:]
+    return [call for calls in chosen for call in calls]
+
+
+def _known(reader: InstanceReader) -> Callable[[Call], bool]:
+    return lambda call: reader.knows_skill(call.name)

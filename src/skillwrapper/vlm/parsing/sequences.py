@@ -1,0 +1,106 @@
+"""Reading skill sequences out of a reply."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from skillwrapper.vlm.parsing.calls import Call, find_calls
+from skillwrapper.vlm.parsing.instances import InstanceReader
+from skillwrapper.vlm.parsing.lines import excerpt, leading_number, plain_lines, without_lead
+from skillwrapper.vlm.parsing.structured import flatten_json
+from skillwrapper.world.skills import Skill, SkillInstance
+from skillwrapper.world.types import Object
+
+_HEADING = re.compile(
+    r"^(?:skill\s+|exploratory\s+|candidate\s+|proposed\s+|the\s+)*"
+    r"(?:sequence|plan|option|trajectory|episode|candidate|seq|set)s?\s*[#(]?\s*"
+    r"(?:\d{1,3}|[a-z]\b|one|two|three|four|five|six)",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True)
+class ParsedSequences:
+    """What a reply proposed.
+
+    Attributes:
+        sequences: in the order of the reply, none empty.
+        unusable: what could not be used, with the reason.
+    """
+
+    sequences: tuple[tuple[SkillInstance, ...], ...]
+    unusable: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Line:
+    text: str
+    calls: tuple[Call, ...]
+    number: int | None
+
+    @property
+    def is_heading(self) -> bool:
+        return _HEADING.match(self.text) is not None
+
+
+def parse_sequences(
+    reply: str, skills: Sequence[Skill], objects: Sequence[Object]
+) -> ParsedSequences:
+    """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
+    reader = InstanceReader(skills, objects)
+    lines = [_read_line(line) for line in plain_lines(flatten_json(reply))]
+    sequences, unusable = [], []
+    for group in _group(lines):
+        steps = []
+        for call in group:
+            instance = reader.read(call)
+            if isinstance(instance, str):
+                unusable.append(excerpt(instance, 160))
+            else:
+                steps.append(instance)
+        if steps:
+            sequences.append(tuple(steps))
+    if not sequences and not unusable:
+        unusable.append(f"no skills in the reply: '{excerpt(reply)}'")
+    return ParsedSequences(tuple(sequences), tuple(unusable))
+
+
+def _read_line(line: str) -> _Line:
+    text = without_lead(line)
+    return _Line(text, tuple(find_calls(text)), leading_number(line))
+
+
+def _group(lines: list[_Line]) -> list[list[Call]]:
+    """Calls that belong together."""
+    if any(line.is_heading for line in lines):
+        return _split(lines, [line.is_heading for line in lines])
+    if any(len(line.calls) > 1 for line in lines):
+        return _split(lines, [bool(line.calls) for line in lines])
+    groups = _split(lines, _starts_by_paragraph(lines))
+    if all(len(group) <= 1 for group in groups):  # one list with empty lines in between
+        return [[call for group in groups for call in group]]
+    return groups
+
+
+def _split(lines: list[_Line], starts: list[bool]) -> list[list[Call]]:
+    groups: list[list[Call]] = [[]]
+    for line, starts_here in zip(lines, starts, strict=True):
+        if starts_here:
+            groups.append([])
+        groups[-1].extend(line.calls)
+    return [group for group in groups if group]
+
+
+def _starts_by_paragraph(lines: list[_Line]) -> list[bool]:
+    starts = []
+    last_number: int | None = None
+    for line in lines:
+        restarts = (
+            line.number is not None and last_number is not None and line.number <= last_number
+        )
+        starts.append(restarts or not line.text or set(line.text) <= set("[]{}, "))
+        if line.number is not None:
+            last_number = line.number
+    return starts
