@@ -107,12 +107,14 @@ def draw_topbun(style: Style) -> Sprite:
 def draw_bottombun(style: Style) -> Sprite:
     """The lower half of a bun: flat, with a pale cut side."""
     canvas = _food_canvas(style)
-    tones = style.bottombun
-    canvas.shadow((0, -11), (39, 13))
-    canvas.disc(_RADII, LEVEL_HEIGHT - 2, tones)
-    _rim(canvas, tones)
-    canvas.ellipse((0, -34), (29, 8.5), tones.base)
-    canvas.ellipse((0, -33.4), (28, 7.6), tones.light)
+    tones, line = style.bottombun, style.outline_width
+    canvas.shadow((0, -10), (37, 12))
+    for extra, colour in ((line, style.outline), (0.0, tones.dark)):
+        canvas.polygon(_bowl(37.0 + extra, 32.0 + extra), colour)
+        canvas.ellipse((0, -32), (37.0 + extra, 12.0 + extra), colour)
+    canvas.polygon(_bowl(37.0, 28.0), tones.base)
+    canvas.ellipse((0, -32), (37, 12), tones.base)
+    canvas.ellipse((0, -32.5), (33, 9.6), tones.light)
     for x, y in ((-14, -34), (-2, -36), (9, -32), (17, -35), (-6, -31)):
         canvas.ellipse((x, y), (2.0, 0.9), tones.base)
     return canvas.finish()
@@ -152,6 +154,16 @@ def _dome(rx: float, height: float, ry: float) -> list[Point]:
         for s in range(61)
     ]
     return upper + lower
+
+
+def _bowl(rx: float, depth: float) -> list[Point]:
+    """The lower half of a squarish ellipse below the rim of a disc."""
+    points = []
+    for step in range(61):
+        angle = math.pi * step / 60
+        cosine, sine = math.cos(angle), math.sin(angle)
+        points.append((math.copysign(rx * abs(cosine) ** 0.55, cosine), depth * sine**0.8 - 32.0))
+    return points
 
 
 def _seed_places() -> tuple[Point, ...]:
