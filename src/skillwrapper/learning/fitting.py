@@ -86,6 +86,11 @@ class Fit:
         return tuple(o for fit in self.skills.values() for o in fit.operators)
 
     @property
+    def cost(self) -> int:
+        """Operators and transitions that are wrong: what it takes to account for the data."""
+        return len(self.operators) + len(self.witnesses)
+
+    @property
     def model(self) -> AbstractModel:
         """The learned abstract model."""
         return AbstractModel(

@@ -15,6 +15,7 @@ from skillwrapper.learning.inconsistencies import Identity, Inconsistency, disti
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import lifted_state
 from skillwrapper.learning.lifting import lift_change
+from skillwrapper.learning.pruning import find_burden
 from skillwrapper.learning.settings import LearningSettings
 from skillwrapper.learning.vocabulary import Vocabulary
 from skillwrapper.symbols import AtomSpace, Labels, Predicate
@@ -72,12 +73,13 @@ class _Trial:
     score: float
     resolved: bool
 
-    def rank(self, position: int) -> tuple[int, int, int, int, int]:
-        """Smaller is better: inconsistencies left, operators, groundings to evaluate."""
+    def rank(self, position: int) -> tuple[int, int, int, int]:
+        """Smaller is better: what is left of conditions 1 and 2 and the operators that it takes,
+        what is left of the other kinds, the number of groundings to evaluate."""
         kinds = Counter(w[0] for w in self.fit.witnesses)
         hard = kinds[InconsistencyKind.PRECONDITION] + kinds[InconsistencyKind.EFFECT]
         soft = sum(kinds.values()) - hard
-        return hard, soft, len(self.fit.operators), self.predicate.arity, position
+        return hard + len(self.fit.operators), soft, self.predicate.arity, position
 
 
 class Inventor:
@@ -107,13 +109,24 @@ class Inventor:
         return taken
 
     def invent(self) -> Fit:
-        """Invent until nothing is inconsistent or every inconsistency was tried often enough."""
+        """Invent until nothing is inconsistent or every inconsistency was tried often enough.
+
+        A predicate that splits the data into more operators than it explains transitions is
+        taken back, once in a call, and what it explained is asked for again.
+        """
+        retracted: set[Predicate] = set()
         for _ in range(self._settings.max_inventions):
             fit = self._fitter.fit(self._vocabulary.active)
             inconsistency = self._next(fit)
-            if inconsistency is None:
+            if inconsistency is not None:
+                self._resolve(inconsistency, fit)
+                continue
+            burden = find_burden(self._fitter, self._vocabulary, retracted)
+            if burden is None:
                 break
-            self._resolve(inconsistency, fit)
+            retracted.add(burden)
+            self._vocabulary.retract(burden)
+            self._attempts.clear()
         return self._fitter.fit(self._vocabulary.active)
 
     def unresolved(self, fit: Fit) -> tuple[Inconsistency, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +24,27 @@ class Pruned:
 def prune(fitter: Fitter, vocabulary: Vocabulary) -> tuple[Pruned, ...]:
     """Merge synonyms and antonyms, then set dormant what is superfluous."""
     return (*_merge(fitter, vocabulary), *_drop_superfluous(fitter, vocabulary))
+
+
+def find_burden(
+    fitter: Fitter, vocabulary: Vocabulary, spared: Collection[Predicate] = ()
+) -> Predicate | None:
+    """The predicate without which operators and inconsistencies together become fewest.
+
+    A predicate that says nothing of a skill splits its successes into many small clusters, each
+    with an operator that fits its few transitions and no other: consistent, and useless.
+
+    Returns:
+        None if no predicate, save the spared ones, is such a burden.
+    """
+    fit = fitter.fit(vocabulary.active)
+    best, lowest = None, fit.cost
+    for predicate in vocabulary.active:
+        if predicate not in spared:
+            cost = fitter.fit([p for p in vocabulary.active if p != predicate]).cost
+            if cost < lowest:
+                best, lowest = predicate, cost
+    return best
 
 
 def _merge(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:

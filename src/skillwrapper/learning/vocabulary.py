@@ -56,6 +56,11 @@ class Vocabulary:
         self.dormant = (*self.dormant, predicate)
         self.rejected = ()
 
+    def retract(self, predicate: Predicate) -> None:
+        """Take an accepted predicate back: it counts as rejected, all other rejections lapse."""
+        self.active = tuple(p for p in self.active if p != predicate)
+        self.rejected = (predicate,)
+
     def _reconcile(self, predicate: Predicate) -> Predicate:
         """Resolve a clash of names: widen the types if possible, else rename."""
         for other in (*self.active, *self.dormant):

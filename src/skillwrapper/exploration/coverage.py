@@ -1,0 +1,70 @@
+"""Coverage: how evenly pairs of consecutive skills were tried (paper, Algorithm 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.world.skills import SkillInstance
+
+
+class PairCounts:
+    """Counts of consecutive pairs (the paper's Q).
+
+    Args:
+        instances: all skill instances.
+        lifted: count pairs of skills instead of pairs of skill instances.
+    """
+
+    def __init__(self, instances: Sequence[SkillInstance], *, lifted: bool = False) -> None:
+        keys = sorted({i.skill for i in instances}) if lifted else instances
+        self._index: dict[object, int] = {key: number for number, key in enumerate(keys)}
+        self._instances = tuple(instances)
+        self._lifted = lifted
+        self.counts: NDArray[np.int64] = np.zeros((len(keys), len(keys)), dtype=np.int64)
+
+    def add(self, sequence: Iterable[SkillInstance]) -> None:
+        """Count the consecutive pairs of an executed sequence."""
+        self.counts += self._count(sequence)
+
+    def gain(self, sequence: Iterable[SkillInstance]) -> float:
+        """Entropy gained by executing a sequence, in nats: H(Q') - H(Q)."""
+        return entropy(self.counts + self._count(sequence)) - entropy(self.counts)
+
+    def share_covered(self) -> float:
+        """Share of pairs that were tried at least once, 0 to 1."""
+        return float((self.counts > 0).mean()) if self.counts.size else 1.0
+
+    def least_explored(
+        self, number: int, order: np.random.Generator
+    ) -> tuple[tuple[SkillInstance, SkillInstance], ...]:
+        """Pairs of skill instances tried least; ties are broken by chance."""
+        pairs = [(a, b) for a in self._instances for b in self._instances if a != b]
+        chance = order.permutation(len(pairs))
+        ranked = sorted(
+            range(len(pairs)), key=lambda i: (self.counts[self._place(*pairs[i])], chance[i])
+        )
+        return tuple(pairs[i] for i in ranked[:number])
+
+    def _count(self, sequence: Iterable[SkillInstance]) -> NDArray[np.int64]:
+        counts = np.zeros_like(self.counts)
+        for first, second in pairwise(sequence):
+            counts[self._place(first, second)] += 1
+        return counts
+
+    def _place(self, first: SkillInstance, second: SkillInstance) -> tuple[int, int]:
+        if self._lifted:
+            return self._index[first.skill], self._index[second.skill]
+        return self._index[first], self._index[second]
+
+
+def entropy(counts: NDArray[np.int64]) -> float:
+    """Shannon entropy of the distribution that counts induce, in nats; 0 without counts."""
+    total = counts.sum()
+    if total == 0:
+        return 0.0
+    shares = counts[counts > 0] / total
+    return float(-(shares * np.log(shares)).sum())

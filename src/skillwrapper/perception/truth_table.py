@@ -1,0 +1,92 @@
+"""The truth table: labels of ground atoms in observations, read by a model, asked for only once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+
+from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Atom, AtomSpace, Labels, Predicate
+from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.types import Object
+
+
+class Evaluator(Protocol):
+    """Who reads pictures; ``vlm.assistant.Assistant`` is one."""
+
+    def evaluate(self, questions: Sequence[EvaluationQuestion]) -> Sequence[EvaluationAnswer]:
+        """Answer all questions, in their order."""
+        ...
+
+
+class TruthTable:
+    """Labels by observation and predicate; only what is missing is asked for.
+
+    Each observation with something missing is one question about all missing predicates; all
+    questions of a call are independent and go out together.
+
+    Attributes:
+        asked: how many (observation, predicate) pairs were asked for.
+    """
+
+    def __init__(self, domain: Domain, evaluator: Evaluator) -> None:
+        self._domain = domain
+        self._evaluator = evaluator
+        self._labels: dict[tuple[tuple[Object, ...], Predicate], dict[str, Labels]] = {}
+        self.asked = 0
+
+    def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
+        """Labels (observations, atoms): TRUE, FALSE or UNKNOWN.
+
+        Raises:
+            ProviderError: if the model does not answer.
+        """
+        self._ask_missing(space, observations)
+        columns = [
+            np.array([self._known(space.objects, p)[o.key] for o in observations], dtype=np.int8)
+            for p in space.predicates
+        ]
+        shape = (len(observations), len(space.atoms))
+        return np.hstack(columns) if columns and observations else np.zeros(shape, dtype=np.int8)
+
+    def known_labels(self, space: AtomSpace, observation: Observation) -> dict[Atom, int]:
+        """What is known of an observation, for reports; asks nothing."""
+        found: dict[Atom, int] = {}
+        for predicate in space.predicates:
+            row = self._known(space.objects, predicate).get(observation.key)
+            if row is not None:
+                values = zip(predicate.groundings(space.objects), row, strict=True)
+                found.update((atom, int(value)) for atom, value in values)
+        return found
+
+    def _known(self, objects: tuple[Object, ...], predicate: Predicate) -> dict[str, Labels]:
+        return self._labels.setdefault((objects, predicate), {})
+
+    def _ask_missing(self, space: AtomSpace, observations: Sequence[Observation]) -> None:
+        questions = []
+        for observation in {o.key: o for o in observations}.values():
+            missing = tuple(
+                p for p in space.predicates if observation.key not in self._known(space.objects, p)
+            )
+            if missing:
+                questions.append(
+                    EvaluationQuestion(self._domain, space.objects, observation, missing)
+                )
+        if not questions:
+            return
+        self.asked += sum(len(q.predicates) for q in questions)
+        answers = self._evaluator.evaluate(questions)
+        for question, answer in zip(questions, answers, strict=True):
+            for predicate in question.predicates:
+                atoms = predicate.groundings(space.objects)
+                known = self._known(space.objects, predicate)
+                known[question.observation.key] = encode_labels(atoms, answer.labels)
+
+
+def encode_labels(atoms: Sequence[Atom], labels: Mapping[Atom, bool | None]) -> Labels:
+    """Labels of atoms (atoms,) as an array; a missing one is UNKNOWN, never FALSE (D10)."""
+    codes = {True: TRUE, False: FALSE, None: UNKNOWN}
+    return np.array([codes[labels.get(atom)] for atom in atoms], dtype=np.int8)
