@@ -131,15 +131,15 @@ def _judgements(lines: Iterable[str]) -> Iterator[tuple[str, Call, list[bool | N
         if title:
             heading = [_heading_verdict(title.group(1))]
             continue
-        calls = find_calls(line) or _nullary(line)
+        calls = [c for c in find_calls(line) if c.name.casefold() not in _VERDICTS]
+        calls = calls or _nullary(line)
         if not calls and line.endswith(":"):
             heading = []
-        ends = [call.start for call in calls[1:]] + [len(line)]
         shared = _shared_verdict(line, calls)
-        for number, (call, end) in enumerate(zip(calls, ends, strict=True)):
+        for number, call in enumerate(calls):
             before = line[calls[number - 1].end if number else 0 : call.start]
-            own = _verdict(before, line[call.end : end])
-            yield line, call, own or shared or heading
+            after = line[call.end : calls[number + 1].start if number + 1 < len(calls) else None]
+            yield line, call, _verdict(before, after) or shared or heading
 
 
 def _heading_verdict(word: str) -> bool | None:

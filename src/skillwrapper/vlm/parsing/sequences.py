@@ -14,9 +14,9 @@ from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
 
 _HEADING = re.compile(
-    r"^(?:skill\s+|exploratory\s+|candidate\s+|proposed\s+|the\s+)*"
-    r"(?:sequence|plan|option|trajectory|episode|candidate|seq|set)s?\s*[#(]?\s*"
-    r"(?:\d{1,3}|[a-z]\b|one|two|three|four|five|six)",
+    r"^(?:(?:skill|exploratory|candidate|proposed|the)\s+)*"
+    r"(?:sequence|plan|option|trajectory|episode|candidate|seq|set)s?"
+    r"(?:[\s_#(-]*\d{1,3}|[\s_#(-]+(?:[a-z]|one|two|three|four|five|six)\b)",
     re.IGNORECASE,
 )
 
