@@ -1,0 +1,51 @@
+"""Operators and predicates in plain text, for people and for prompts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from skillwrapper.symbols.model import AbstractModel
+from skillwrapper.symbols.operators import Operator, Variable
+from skillwrapper.symbols.predicates import Literal, Predicate
+
+
+def describe_predicate(predicate: Predicate) -> str:
+    """E.g. ``holding(?robot, ?pickupable): the robot holds the ingredient``."""
+    meaning = " ".join(predicate.semantics.split())
+    return f"{predicate.signature}: {meaning}" if meaning else predicate.signature
+
+
+def describe_operator(operator: Operator) -> str:
+    """A block of lines: the skill with its variables, what it needs, what it changes."""
+    own = ", ".join(map(_variable, operator.parameters[: operator.arity]))
+    context = ", ".join(map(_variable, operator.context))
+    with_context = f" with {context}" if context else ""
+    lines = [f"{operator.name}: {operator.skill}({own}){with_context}"]
+    lines += _line("needs", map(str, sorted(operator.preconditions, key=_positive_first)))
+    lines += _line("needs", (str(absence) for absence in sorted(operator.absences)))
+    lines += _line("makes true", map(str, sorted(operator.add_effects)))
+    lines += _line("makes false", map(str, sorted(operator.delete_effects)))
+    lines += _line("changes", (str(effect) for effect in sorted(operator.conditional_effects)))
+    if len(lines) == 1:
+        lines.append("  needs and changes nothing")
+    return "\n".join(lines)
+
+
+def describe_model(model: AbstractModel) -> str:
+    """All predicates, then all operators."""
+    predicates = "\n".join(map(describe_predicate, model.predicates)) or "no predicates"
+    operators = "\n\n".join(map(describe_operator, model.operators)) or "no operators"
+    return f"{predicates}\n\n{operators}\n"
+
+
+def _variable(variable: Variable) -> str:
+    return f"{variable.name}: {' and '.join(variable.types)}" if variable.types else variable.name
+
+
+def _positive_first(literal: Literal) -> tuple[bool, Literal]:
+    return not literal.positive, literal
+
+
+def _line(title: str, parts: Iterable[str]) -> list[str]:
+    text = ", ".join(parts)
+    return [f"  {title} {text}"] if text else []
