@@ -17,6 +17,7 @@ SkillWrapperError
 │   └── RecordingError        a recorded run was asked something it never heard
 ├── LimitReachedError         nobody: a limit the user set was reached; the run can be resumed
 ├── RobotError                the environment: a robot or simulator did not do its part
+│   └── ConformanceError      its author: it breaks a rule that every environment must keep
 └── InternalError             us: please report it
 """
 
@@ -123,6 +124,19 @@ class LimitReachedError(SkillWrapperError):
 
 class RobotError(SkillWrapperError):
     """A robot or simulator did not do its part."""
+
+
+class ConformanceError(RobotError):
+    """An environment breaks a rule that every environment must keep.
+
+    Args:
+        check: name of the check that failed.
+        message: what was expected, and what came.
+    """
+
+    def __init__(self, check: str, message: str) -> None:
+        super().__init__(f"{check}: {message}")
+        self.check = check
 
 
 class InternalError(SkillWrapperError):
