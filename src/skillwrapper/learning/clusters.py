@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from skillwrapper.learning.data import SkillData, SkillTable
 from skillwrapper.learning.lifting import LiftedChange, Lifting, lift_change
 from skillwrapper.symbols import AtomSpace, Labels, Literal
+from skillwrapper.world.skills import SkillInstance
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,11 @@ class Group:
     def before(self) -> Labels:
         """Labels before the execution (rows, atoms)."""
         return self.table.before[self.rows]
+
+    @property
+    def instance(self) -> SkillInstance:
+        """The skill instance that they share."""
+        return self.table.instances[int(self.table.which[self.rows[0]])]
 
     @property
     def types(self) -> tuple[tuple[str, ...], ...]:

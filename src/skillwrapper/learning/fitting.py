@@ -19,7 +19,7 @@ from skillwrapper.learning.inconsistencies import (
 )
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.operators import LearnedOperator
-from skillwrapper.learning.predictions import TablePrediction, predict
+from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.learning.remedies import learn_deterministic_operators
 from skillwrapper.symbols import UNKNOWN, AbstractModel, AtomSpace, Predicate
 from skillwrapper.world.domain import Domain
@@ -155,8 +155,7 @@ def fit_skill(
     predicates: Sequence[Predicate],
 ) -> SkillFit:
     """Learn one skill from its transitions."""
-    operators = learn_deterministic_operators(domain, skill, data, predicates)
-    predictions = predict(data, operators)
+    operators, predictions = learn_deterministic_operators(domain, skill, data, predicates)
     clusters = [learned.cluster for learned in operators]
     return SkillFit(
         skill.name,

@@ -4,7 +4,7 @@ predicate, keep it if it helps."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
@@ -43,6 +43,7 @@ class Verdict(StrEnum):
     ACCEPTED = "accepted"
     REVIVED = "revived"
     REJECTED = "rejected"
+    RETRACTED = "retracted"
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Decision:
     Attributes:
         verdict: what became of it.
         predicate: the candidate.
-        inconsistency: what it was asked for.
+        inconsistency: what it was asked for; None for a retracted one.
         score: its score on the transitions of the inconsistency's skill, 0 to 1; None if it
             was rejected before all pictures were labelled.
         reason: for people.
@@ -60,7 +61,7 @@ class Decision:
 
     verdict: Verdict
     predicate: Predicate
-    inconsistency: Inconsistency
+    inconsistency: Inconsistency | None
     score: float | None
     reason: str
 
@@ -85,8 +86,12 @@ class _Trial:
 class Inventor:
     """Invents predicates for a growing data set.
 
-    Attributes:
-        decisions: every decision since the last call of ``take_decisions``.
+    Args:
+        fitter: learns operators for vocabularies.
+        vocabulary: the predicates; changed in place.
+        proposer: who is asked.
+        settings: thresholds and bounds.
+        listener: told of every decision as it is taken.
     """
 
     def __init__(
@@ -95,18 +100,14 @@ class Inventor:
         vocabulary: Vocabulary,
         proposer: Proposer,
         settings: LearningSettings,
+        listener: Callable[[Decision], None] = lambda decision: None,
     ) -> None:
+        self._listener = listener
         self._fitter = fitter
         self._vocabulary = vocabulary
         self._proposer = proposer
         self._settings = settings
         self._attempts: Counter[Identity] = Counter()
-        self._decisions: list[Decision] = []
-
-    def take_decisions(self) -> tuple[Decision, ...]:
-        """The decisions since the last call, in order."""
-        taken, self._decisions = tuple(self._decisions), []
-        return taken
 
     def invent(self) -> Fit:
         """Invent until nothing is inconsistent or every inconsistency was tried often enough.
@@ -125,8 +126,7 @@ class Inventor:
             if burden is None:
                 break
             retracted.add(burden)
-            self._vocabulary.retract(burden)
-            self._attempts.clear()
+            self._retract(burden)
         return self._fitter.fit(self._vocabulary.active)
 
     def unresolved(self, fit: Fit) -> tuple[Inconsistency, ...]:
@@ -144,6 +144,12 @@ class Inventor:
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),
             default=None,
         )
+
+    def _retract(self, predicate: Predicate) -> None:
+        self._vocabulary.retract(predicate)
+        self._attempts.clear()
+        reason = "it takes more operators than it explains transitions"
+        self._listener(Decision(Verdict.RETRACTED, predicate, None, None, reason))
 
     def _resolve(self, inconsistency: Inconsistency, fit: Fit) -> bool:
         attempt = self._attempts[inconsistency.identity]
@@ -184,7 +190,7 @@ class Inventor:
                 yield predicate
             elif not dormant:
                 self._vocabulary.reject(predicate)
-                self._decisions.append(
+                self._listener(
                     Decision(
                         Verdict.REJECTED,
                         predicate,
@@ -245,6 +251,4 @@ class Inventor:
                 reason = "another candidate leaves less unexplained"
             if not trial.dormant:
                 self._vocabulary.reject(trial.predicate)
-        self._decisions.append(
-            Decision(verdict, trial.predicate, inconsistency, trial.score, reason)
-        )
+        self._listener(Decision(verdict, trial.predicate, inconsistency, trial.score, reason))

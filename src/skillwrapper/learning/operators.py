@@ -26,12 +26,10 @@ class LearnedOperator:
     Attributes:
         operator: the operator.
         cluster: its transitions.
-        between_context: whether literals between context objects were needed (D5).
     """
 
     operator: Operator
     cluster: Cluster
-    between_context: bool = False
 
 
 def learn_operators(
@@ -76,7 +74,7 @@ def operator_of(
         add_effects=_effects(cluster, names, positive=True),
         delete_effects=_effects(cluster, names, positive=False),
     )
-    return LearnedOperator(operator, cluster, between_context)
+    return LearnedOperator(operator, cluster)
 
 
 def _slots(groups: Sequence[Group]) -> list[tuple[tuple[str, ...], ...]]:

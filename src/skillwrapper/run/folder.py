@@ -1,0 +1,198 @@
+"""The folder of a run: where everything stands, and how it gets there safely.
+
+config.yaml        what was asked for, with versions and commit
+domain.yaml        the domain as it was
+episodes/          001.jsonl ...: what was executed, a line each skill
+images/            <sha256>.png
+calls.sqlite       every model call
+iterations/001/    truth table, predicates, operators, decisions, certificate
+model/             domain.pddl, predicates.yaml, model.json
+events.jsonl       what happened when
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from skillwrapper.errors import RunFolderError
+from skillwrapper.run.config import RunConfig
+from skillwrapper.run.provenance import provenance
+from skillwrapper.world.observation import Observation, Picture
+from skillwrapper.yaml_files import YamlDocument
+
+CONFIG = "config.yaml"
+
+
+@dataclass(frozen=True)
+class RunFolder:
+    """The folder of one run.
+
+    Attributes:
+        path: where it is.
+    """
+
+    path: Path
+
+    @classmethod
+    def create_or_resume(cls, path: Path, config: RunConfig, domain_file: Path) -> RunFolder:
+        """A new folder, or the folder of a run with the same configuration.
+
+        Raises:
+            RunFolderError: if the path holds something else, or a run with other settings.
+        """
+        folder = cls(path)
+        if path.exists() and not path.is_dir():
+            raise RunFolderError(f"{path}: expected a folder, got a file; choose another --out")
+        if (path / CONFIG).exists():
+            difference = folder.config().difference(config)
+            if difference:
+                raise RunFolderError(
+                    f"{path} holds a run with other settings ({difference}); "
+                    "give the same settings to resume it, or choose another --out"
+                )
+            return folder
+        if path.exists() and any(path.iterdir()):
+            raise RunFolderError(
+                f"{path} is not empty and holds no run; choose another --out, nothing was changed"
+            )
+        path.mkdir(parents=True, exist_ok=True)
+        write_atomically(path / "domain.yaml", domain_file.read_text(encoding="utf-8"))
+        entries = {"run": config.model_dump(mode="json"), "made_with": provenance()}
+        write_atomically(path / CONFIG, yaml.safe_dump(entries, sort_keys=False))
+        return folder
+
+    @classmethod
+    def open(cls, path: Path) -> RunFolder:
+        """The folder of an existing run.
+
+        Raises:
+            RunFolderError: if there is no run.
+        """
+        if not (path / CONFIG).is_file():
+            raise RunFolderError(
+                f"{path}: expected the folder of a run (with {CONFIG}); "
+                "make one with: skillwrapper learn DOMAIN --out DIR"
+            )
+        return cls(path)
+
+    def config(self) -> RunConfig:
+        """What the run was asked to do.
+
+        Raises:
+            ConfigurationError: if the file was damaged.
+        """
+        document = YamlDocument.read(self.path / CONFIG)
+        inner = document.data.get("run") if isinstance(document.data, dict) else None
+        return YamlDocument(document.path, inner, _under(document.root, "run")).validate(RunConfig)
+
+    @property
+    def model(self) -> Path:
+        """Where the learned model stands."""
+        return self.path / "model"
+
+    @property
+    def calls(self) -> Path:
+        """The store of model calls."""
+        return self.path / "calls.sqlite"
+
+    @property
+    def events(self) -> Path:
+        """The log of events."""
+        return self.path / "events.jsonl"
+
+    def episode(self, number: int) -> Path:
+        """Where an episode (from 1) is recorded."""
+        return self.path / "episodes" / f"{number:03d}.jsonl"
+
+    def iteration(self, number: int) -> Path:
+        """Where an iteration (from 1) is described."""
+        return self.path / "iterations" / f"{number:03d}"
+
+    def finished_iterations(self) -> int:
+        """How many iterations are complete."""
+        number = 0
+        while (self.iteration(number + 1) / "summary.json").exists():
+            number += 1
+        return number
+
+    def save_observation(self, observation: Observation) -> list[dict[str, str]]:
+        """Save the pictures; what is returned goes into a record."""
+        for picture in observation.pictures:
+            path = self.path / "images" / f"{picture.sha256}.png"
+            if not path.exists():
+                write_atomically(path, picture.png)
+        return [{"camera": p.camera, "sha256": p.sha256} for p in observation.pictures]
+
+    def load_observation(self, record: list[dict[str, str]]) -> Observation:
+        """The observation of a record.
+
+        Raises:
+            RunFolderError: if a picture is missing or was changed.
+        """
+        return Observation(tuple(self._picture(r["sha256"], r["camera"]) for r in record))
+
+    def _picture(self, sha256: str, camera: str) -> Picture:
+        path = self.path / "images" / f"{sha256}.png"
+        try:
+            picture = Picture(path.read_bytes(), camera)
+        except OSError as error:
+            raise RunFolderError(f"{path}: the picture is missing") from error
+        if picture.sha256 != sha256:
+            raise RunFolderError(f"{path}: the picture was changed since it was recorded")
+        return picture
+
+
+def write_atomically(path: Path, content: str | bytes) -> None:
+    """Write a file so that at any moment it is either the old one or the new one, whole."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    temporary.write_bytes(data)
+    temporary.replace(path)
+
+
+def write_json(path: Path, content: object) -> None:
+    """Write JSON with sorted keys, atomically."""
+    write_atomically(path, json.dumps(content, indent=1, sort_keys=True) + "\n")
+
+
+def append_line(path: Path, entry: Mapping[str, Any]) -> None:
+    """Append a JSON line in a single write."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("ab") as file:
+        file.write(json.dumps(entry, sort_keys=True).encode("utf-8") + b"\n")
+
+
+def read_lines(path: Path) -> Iterator[dict[str, Any]]:
+    """The JSON lines of a file; a last line that a crash cut short is removed from the file.
+
+    Raises:
+        RunFolderError: if another line is no JSON.
+    """
+    if not path.exists():
+        return
+    data = path.read_bytes()
+    whole = data[: data.rfind(b"\n") + 1]
+    if len(whole) < len(data):
+        write_atomically(path, whole)
+    for number, line in enumerate(whole.splitlines(), start=1):
+        try:
+            yield json.loads(line)
+        except ValueError as error:
+            raise RunFolderError(f"{path}:{number}: expected a line of JSON") from error
+
+
+def _under(root: yaml.Node | None, key: str) -> yaml.Node | None:
+    if isinstance(root, yaml.MappingNode):
+        for key_node, value_node in root.value:
+            if key_node.value == key:
+                found: yaml.Node = value_node
+                return found
+    return None
