@@ -47,7 +47,7 @@ class YamlDocument:
             mark = getattr(error, "problem_mark", None)
             line = f":{mark.line + 1}" if mark else ""
             problem = getattr(error, "problem", None) or "not valid YAML"
-            raise ConfigurationError(f"{path}{line}: expected YAML, but {problem}") from error
+            raise ConfigurationError(f"{path}{line}: expected valid YAML ({problem})") from error
 
     def place(self, location: tuple[str | int, ...]) -> str:
         """``file:line`` of a location such as ``("skills", "Pick")``, or of what encloses it."""
@@ -71,7 +71,10 @@ class YamlDocument:
             raise ConfigurationError(self._describe(error, model)) from error
 
     def _describe(self, error: ValidationError, model: type[BaseModel]) -> str:
-        first = error.errors()[0]
+        # A misspelt key is an unknown one and a missing one: the unknown one says more.
+        mistakes = error.errors()
+        unknown = (mistake for mistake in mistakes if mistake["type"] == "extra_forbidden")
+        first = next(unknown, mistakes[0])
         location = first["loc"]
         name = ".".join(str(part) for part in location) or "the file"
         if first["type"] == "extra_forbidden":

@@ -1,0 +1,108 @@
+"""Mistakes in domain.yaml are told with file, line and what was expected."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
+from skillwrapper.world import SkillInstance, load_domain
+
+GOOD = """\
+name: kitchen
+agent: A robot.
+description: A table.
+types:
+  robot: {}
+  food: {}
+  fruit:
+    parents: [food]
+objects:
+  arm:
+    types: [robot]
+  apple:
+    types: [fruit]
+    description: red
+skills:
+  Take:
+    description: Takes it.
+    parameters:
+      - {name: robot, type: robot, role: acts}
+      - {name: food, type: food}
+"""
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "domain.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_good_file_is_read(tmp_path: Path) -> None:
+    domain = load_domain(written(tmp_path, GOOD))
+    assert domain.name == "kitchen"
+    assert not domain.failures_change_nothing
+    assert domain.object_by_name["apple"].types == ("food", "fruit")
+    assert domain.skill_by_name["Take"].signature == "Take(robot, food)"
+    assert domain.skill_instances == (SkillInstance("Take", ("arm", "apple")),)
+    assert [o.name for o in domain.scene_objects(("apple", "arm"))] == ["arm", "apple"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ("agent: A robot.\n", "", 1, "expected a value for 'agent', got none"),
+        ("agent:", "agnet:", 2, "did you mean 'agent'?"),
+        ("name: kitchen", "name: 3 kitchens", 1, "'name': String should match"),
+        ("parents: [food]", "parents: [foot]", 8, "unknown type 'foot'; did you mean 'food'"),
+        ("parents: [food]", "parents: food", 8, "valid list, got 'food'"),
+        ("    types: [fruit]", "    types: []", 13, "at least 1 item"),
+        ("    types: [fruit]", "    types: [fruits]", 13, "unknown type 'fruits'"),
+        ("name: food, type: food", "name: food, type: fod", 20, "unknown type 'fod'"),
+        ("name: food, type: food", "name: robot, type: food", 18, "have the same name"),
+        ("    description: red", "    colour: red", 14, "unknown key 'objects.apple.colour'"),
+        ("  food: {}", "  food:\n    parents: [fruit]", 4, "the types form a cycle"),
+        ("types:\n  robot", "types: [\n  robot", 6, "expected valid YAML"),
+    ],
+)
+def test_mistake_is_named_with_its_line(
+    tmp_path: Path, old: str, new: str, line: int, message: str
+) -> None:
+    assert old in GOOD
+    path = written(tmp_path, GOOD.replace(old, new, 1))
+    with pytest.raises(UserError) as caught:
+        load_domain(path)
+    assert str(caught.value).startswith(f"{path}:{line}: ")
+    assert message in str(caught.value)
+
+
+def test_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="cannot be read"):
+        load_domain(tmp_path / "domain.yaml")
+
+
+def test_other_encoding_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "domain.yaml"
+    path.write_bytes(b"name: k\xfcche\n")
+    with pytest.raises(ConfigurationError, match="expected UTF-8"):
+        load_domain(path)
+
+
+@pytest.mark.parametrize(
+    ("instance", "error"),
+    [
+        (SkillInstance("Drop", ("arm", "apple")), UnknownNameError),
+        (SkillInstance("Take", ("arm", "pear")), UnknownNameError),
+        (SkillInstance("Take", ("arm",)), ConfigurationError),
+        (SkillInstance("Take", ("apple", "arm")), ConfigurationError),
+        (SkillInstance("Take", ("arm", "arm")), ConfigurationError),
+    ],
+)
+def test_instance_that_does_not_exist_is_refused(
+    tmp_path: Path, instance: SkillInstance, error: type[Exception]
+) -> None:
+    domain = load_domain(written(tmp_path, GOOD))
+    domain.check_instance(SkillInstance("Take", ("arm", "apple")))
+    with pytest.raises(error):
+        domain.check_instance(instance)
