@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from skillwrapper.errors import ConfigurationError
 from skillwrapper.world.types import Object
 
 
@@ -66,6 +68,19 @@ class SkillInstance:
 
     def __str__(self) -> str:
         return f"{self.skill}({', '.join(self.arguments)})"
+
+
+def parse_skill_instance(text: str) -> SkillInstance:
+    """The skill instance that its ``str`` describes, e.g. ``Pick(robot, patty)``.
+
+    Raises:
+        ConfigurationError: if the text is no skill with arguments in parentheses.
+    """
+    match = re.fullmatch(r"\s*([\w-]+)\s*\(([^()]*)\)\s*", text)
+    if match is None:
+        raise ConfigurationError(f"expected a skill like 'Pick(robot, patty)', got '{text}'")
+    arguments = tuple(a.strip() for a in match[2].split(",") if a.strip())
+    return SkillInstance(match[1], arguments)
 
 
 def ground_skills(skills: Iterable[Skill], objects: Sequence[Object]) -> tuple[SkillInstance, ...]:
