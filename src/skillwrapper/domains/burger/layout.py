@@ -10,11 +10,13 @@ from skillwrapper.domains.burger.states import ITEMS, STATIONS
 
 PICTURE_SIZE: Final = 512
 """Width and height of a picture in pixels."""
-CELL_SIZE: Final = 160
-"""Width and height of the cells in pixels; a place with a stack of four stays within its cell."""
-_MARGIN: Final = 16
-_ROW_BOTTOM: Final = 505
-_JITTER: Final = (18, 5)
+_CELL_WIDTH: Final = 160
+_CELL_HEIGHT: Final = 163
+"""A place with a stack of four takes 160 pixels, so that it touches nothing above it."""
+_LEFT: Final = 16
+_LOWEST_ROW: Final = 505
+_SIDEWAYS, _UPWARDS = 18, 3
+"""How far from the regular place in its cell a thing may stand, in pixels."""
 
 
 @dataclass(frozen=True, order=True)
@@ -69,8 +71,7 @@ def make_layout(seed: int) -> Layout:
 
 def _spot_in(cell: tuple[int, int], chance: random.Random) -> Spot:
     column, row = cell
-    sideways, upwards = _JITTER
     return Spot(
-        _MARGIN + CELL_SIZE * column + CELL_SIZE // 2 + chance.randint(-sideways, sideways),
-        _ROW_BOTTOM - CELL_SIZE * (2 - row) - chance.randint(0, upwards),
+        _LEFT + _CELL_WIDTH * column + _CELL_WIDTH // 2 + chance.randint(-_SIDEWAYS, _SIDEWAYS),
+        _LOWEST_ROW - _CELL_HEIGHT * (2 - row) - chance.randint(0, _UPWARDS),
     )
