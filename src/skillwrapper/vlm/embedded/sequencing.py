@@ -1,0 +1,78 @@
+"""Answering the proposal prompt: random walks that like to stay with an object."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+from skillwrapper.vlm.embedded.chance import Chance
+from skillwrapper.vlm.embedded.prompt_text import PromptText, WrittenCall
+from skillwrapper.vlm.parsing.calls import find_calls
+
+_SAME_OBJECT = 4.0
+_SCARCE_SKILL = 3.0
+_UNEXPLORED_PAIR = 3.0
+_REPEATED = 0.05
+_COUNT = r"[Pp]lan (\d+) different"
+_LENGTH = r"at least (\d+) skills"
+
+
+def all_instances(prompt: PromptText) -> tuple[WrittenCall, ...]:
+    """All skills on all objects of the right types, in the order of the prompt."""
+    return tuple(
+        WrittenCall(skill.name, names)
+        for skill in prompt.skills
+        for names in itertools.permutations(prompt.objects, len(skill.types))
+        if all(t in prompt.objects[n] for t, n in zip(skill.types, names, strict=True))
+    )
+
+
+def propose_sequences(prompt: PromptText, chance: Chance) -> str:
+    """As many sequences as wanted, as long as wanted."""
+    walker = _Walker(prompt)
+    count, length = prompt.number(_COUNT, 5), prompt.number(_LENGTH, 15)
+    blocks = []
+    for number in range(1, count + 1):
+        steps = walker.walk(length, chance)
+        blocks.append("\n".join([f"Sequence {number}:", *map(str, steps)]))
+    return "\n\n".join(blocks)
+
+
+class _Walker:
+    """Knows what the prompt asks to prefer; holds no rule of when a skill works."""
+
+    def __init__(self, prompt: PromptText) -> None:
+        self._instances = all_instances(prompt)
+        self._scarce = frozenset(
+            line[2:].strip() for line in prompt.lines("Skills that seldom worked so far")
+        )
+        self._pairs = frozenset(_pairs(prompt.lines("Least explored pairs")))
+        everywhere = [set(call.arguments) for call in self._instances]
+        self._common = set.intersection(*everywhere) if everywhere else set()
+
+    def walk(self, length: int, chance: Chance) -> list[WrittenCall]:
+        steps: list[WrittenCall] = []
+        while self._instances and len(steps) < length:
+            weights = [self._weight(steps[-1:], call) for call in self._instances]
+            steps.append(chance.pick_weighted(self._instances, weights))
+        return steps
+
+    def _weight(self, last: Sequence[WrittenCall], call: WrittenCall) -> float:
+        weight = _SCARCE_SKILL if call.name in self._scarce else 1.0
+        for previous in last:
+            if previous == call:
+                weight *= _REPEATED
+            if (previous, call) in self._pairs:
+                weight *= _UNEXPLORED_PAIR
+            if set(previous.arguments) & set(call.arguments) - self._common:
+                weight *= _SAME_OBJECT
+        return weight
+
+
+def _pairs(lines: Sequence[str]) -> list[tuple[WrittenCall, WrittenCall]]:
+    found = [find_calls(line) for line in lines if line.startswith("- ")]
+    return [
+        (WrittenCall(c[0].name, c[0].arguments), WrittenCall(c[1].name, c[1].arguments))
+        for c in found
+        if len(c) == 2
+    ]
