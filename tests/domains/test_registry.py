@@ -2,14 +2,17 @@ from __future__ import annotations
 
 import pytest
 
-from skillwrapper.domains.registry import domain_names, make_environment
+from skillwrapper.domains.registry import domain_file, domain_names, make_environment
 from skillwrapper.errors import UnknownNameError
+from skillwrapper.world import load_domain
 
 
 def test_every_name_makes_its_domain() -> None:
     assert "burger" in domain_names()
     for name in domain_names():
-        assert make_environment(name).domain.name == name
+        environment = make_environment(name)
+        assert environment.domain.name == name
+        assert load_domain(domain_file(name)) == environment.domain
 
 
 def test_environments_are_independent() -> None:
@@ -23,3 +26,5 @@ def test_environments_are_independent() -> None:
 def test_unknown_name_gets_a_hint() -> None:
     with pytest.raises(UnknownNameError, match="unknown domain 'burgr'; did you mean 'burger'"):
         make_environment("burgr")
+    with pytest.raises(UnknownNameError, match="unknown domain 'burgr'"):
+        domain_file("burgr")

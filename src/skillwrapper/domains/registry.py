@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from types import MappingProxyType
 
 from skillwrapper.errors import UnknownNameError
@@ -31,6 +32,19 @@ def make_environment(name: str) -> Environment:
     Raises:
         UnknownNameError: if there is no such domain.
     """
+    return _FACTORIES[_checked(name)]()
+
+
+def domain_file(name: str) -> Path:
+    """The ``domain.yaml`` of a bundled domain.
+
+    Raises:
+        UnknownNameError: if there is no such domain.
+    """
+    return Path(__file__).parent / _checked(name) / "domain.yaml"
+
+
+def _checked(name: str) -> str:
     if name not in _FACTORIES:
         raise UnknownNameError("domain", name, _FACTORIES)
-    return _FACTORIES[name]()
+    return name
