@@ -73,14 +73,9 @@ class Canvas:
             self.ellipse(end, (width / 2, width / 2), colour)
 
     def arc(
-        self,
-        centre: Point,
-        radii: Point,
-        degrees: tuple[float, float],
-        colour: Colour,
-        width: float,
+        self, centre: Point, radii: Point, degrees: Point, colour: Colour, width: float
     ) -> None:
-        """A part of an ellipse's line; degrees run clockwise from the right."""
+        """A part of an ellipse's line, between two angles in degrees, clockwise from the right."""
         (x, y), (rx, ry) = centre, radii
         box = self._scaled((x - rx, y - ry), (x + rx, y + ry))
         self._draw.arc(box, *degrees, (*colour, 255), round(width * _SCALE))
@@ -111,11 +106,9 @@ class Canvas:
     def shadow(self, centre: Point, radii: Point) -> None:
         """A soft shadow on what is beneath."""
         # Drawing replaces what is there, opacity included; the inner ellipse thus gets its own.
-        opacity = self.style.shadow_opacity
         for part, strength in ((1.0, 0.4), (0.92, 0.7), (0.84, 1.0)):
-            self.ellipse(
-                centre, (radii[0] * part, radii[1] * part), (0, 0, 0), round(opacity * strength)
-            )
+            opacity = round(self.style.shadow_opacity * strength)
+            self.ellipse(centre, (radii[0] * part, radii[1] * part), (0, 0, 0), opacity)
 
     def _cylinder(self, centre: float, radii: Point, height: float, colour: Colour) -> None:
         self.ellipse((0, centre), radii, colour)

@@ -30,13 +30,10 @@ def draw_lettuce(style: Style) -> Sprite:
     canvas.polygon(_wavy(22.0, 14.5, -28.0, 1.2), tones.light)
     canvas.polygon(_wavy(16.5, 10.5, -27.0, 1.0), tones.base)
     for side in (-1, 1):
-        canvas.line(
-            [(side * 3.0, -4.0), (side * 9.0, -14.0), (side * 13.0, -24.0)], tones.light, 1.8
-        )
-        canvas.line(
-            [(side * 13.0, -5.0), (side * 22.0, -13.0), (side * 28.0, -22.0)], tones.dark, 1.8
-        )
-        canvas.line([(side * 2.0, -22.0), (side * 8.0, -30.0)], tones.dark, 1.6)
+        inner, outer = ((3, -4), (9, -14), (13, -24)), ((13, -5), (22, -13), (28, -22))
+        canvas.line([(side * x, y) for x, y in inner], tones.light, 1.8)
+        canvas.line([(side * x, y) for x, y in outer], tones.dark, 1.8)
+        canvas.line([(side * 2, -22), (side * 8, -30)], tones.dark, 1.6)
     canvas.line([(0.0, -2.5), (0.0, -16.0)], tones.light, 2.0)
     return canvas.finish()
 
@@ -114,6 +111,7 @@ def draw_bottombun(style: Style) -> Sprite:
         canvas.ellipse((0, -32), (37.0 + extra, 12.0 + extra), colour)
     canvas.polygon(_bowl(37.0, 28.0), tones.base)
     canvas.ellipse((0, -32), (37, 12), tones.base)
+    canvas.arc((0, -32), (37, 12), (4, 176), tones.dark, 1.6)
     canvas.ellipse((0, -32.5), (33, 9.6), tones.light)
     for x, y in ((-14, -34), (-2, -36), (9, -32), (17, -35), (-6, -31)):
         canvas.ellipse((x, y), (2.0, 0.9), tones.base)
