@@ -65,11 +65,15 @@ def broken(tmp_path: Path, old: str, new: str) -> str:
         ('"skill": "Cook"', '"skill": "Coook"', "operator Cook: unknown skill 'Coook'"),
         ('"arity": 2', '"arity": "two"', "'operators.0.arity'"),
         ('"arity": 2', '"arity": 1', "expected the 2 parameters of Cook first"),
-        ('"holds"', '"hold"', "expected a value for 'operators.0.preconditions.0.holds'"),
+        (
+            '"holds"',
+            '"hold"',
+            "preconditions.0.hold'; did you mean 'holds'?",
+        ),
         ('"?item"', '"?thing"', "operator Cook: expected '?item' of"),
         ('"hand_empty"', '"hand empty"', "expected a predicate name"),
         ('"name": "holding"', '"name": "hand_empty"', "is defined twice"),
-        ("{", "[", "expected YAML"),
+        ("{", "[", "expected valid YAML"),
     ],
 )
 def test_mistakes_in_a_model(tmp_path: Path, old: str, new: str, expected: str) -> None:

@@ -1,0 +1,119 @@
+"""Planning problems: the ground operators of a scene, where to start and what to reach."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillwrapper.errors import UnknownNameError
+from skillwrapper.symbols.ground import (
+    FALSE,
+    TRUE,
+    UNKNOWN,
+    AtomSpace,
+    GroundModel,
+    GroundOperator,
+    Labels,
+)
+from skillwrapper.symbols.predicates import Atom, Literal
+from skillwrapper.world.skills import SkillInstance
+
+
+@dataclass(frozen=True)
+class PlanningProblem:
+    """A planning problem without variables; universal absences are expanded already.
+
+    Attributes:
+        space: the ground atoms.
+        actions: the ground operators, in the order of the model, each once.
+        initial: the abstract state to start from, of TRUE and FALSE only (shape: atoms).
+        guessed: atoms that were unknown at the start and are taken as false.
+        goal: the ground literals to reach.
+    """
+
+    space: AtomSpace
+    actions: tuple[GroundOperator, ...]
+    initial: Labels
+    guessed: tuple[Atom, ...]
+    goal: frozenset[Literal]
+
+    @classmethod
+    def of(cls, model: GroundModel, initial: Labels, goal: Iterable[Literal]) -> PlanningProblem:
+        """Put a problem together.
+
+        Args:
+            model: the ground operators of the scene.
+            initial: TRUE, FALSE or UNKNOWN for every atom (shape: atoms).
+            goal: ground literals.
+
+        Raises:
+            UnknownNameError: if a goal atom is not one of the scene.
+        """
+        wanted = frozenset(goal)
+        for literal in sorted(wanted):
+            if literal.atom not in model.space.column:
+                raise UnknownNameError(
+                    "ground atom", str(literal.atom), map(str, model.space.atoms)
+                )
+        return cls(
+            space=model.space,
+            actions=_different(a for found in model.operators.values() for a in found),
+            initial=np.where(initial == TRUE, TRUE, FALSE).astype(np.int8),
+            guessed=tuple(model.space.atoms[i] for i in np.flatnonzero(initial == UNKNOWN)),
+            goal=wanted,
+        )
+
+    @property
+    def goal_columns(self) -> dict[int, int]:
+        """The column of every goal atom and the value it must have."""
+        column = self.space.column
+        return {column[g.atom]: TRUE if g.positive else FALSE for g in sorted(self.goal)}
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether the goal holds at the start."""
+        return all(self.initial[column] == value for column, value in self.goal_columns.items())
+
+    def is_plan(self, action_numbers: Sequence[int]) -> bool:
+        """Whether the actions, one after the other, are applicable and lead to the goal."""
+        states = self.initial[np.newaxis]
+        for number in action_numbers:
+            if self.actions[number].applicability(states)[0] != TRUE:
+                return False
+            states = self.actions[number].apply(states)
+        return all(states[0, column] == value for column, value in self.goal_columns.items())
+
+    def skills(self, action_numbers: Sequence[int]) -> tuple[SkillInstance, ...]:
+        """The skill instances of a plan given as positions in ``actions``."""
+        return tuple(self.actions[number].instance for number in action_numbers)
+
+
+def _different(actions: Iterable[GroundOperator]) -> tuple[GroundOperator, ...]:
+    """The actions without those that do the same as an earlier one."""
+    found: dict[object, GroundOperator] = {}
+    for action in actions:
+        columns = (action.required_true, action.required_false, action.added, action.deleted)
+        conditional = tuple(
+            (tuple(e.required_true), tuple(e.required_false), e.column, e.becomes)
+            for e in action.conditional
+        )
+        found.setdefault((action.instance, *map(tuple, columns), conditional), action)
+    return tuple(found.values())
+
+
+FINISH = "finish"
+"""The last action of every plan: it needs the goal and lets nothing follow (DESIGN.md D12)."""
+
+_PREFIX = "action-"
+
+
+def action_name(number: int) -> str:
+    """The name of an action in planner files: its position in the problem's actions."""
+    return f"{_PREFIX}{number}"
+
+
+def action_number(name: str) -> int:
+    """The position of an action that a planner names."""
+    return int(name.removeprefix(_PREFIX))

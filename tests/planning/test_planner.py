@@ -1,0 +1,280 @@
+"""Plans are the shortest ones, and right: by the true kitchen, by K*'s own front end, by others."""
+
+from __future__ import annotations
+
+import random
+import tempfile
+import warnings
+from collections import deque
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kitchen import STANDARD_GOALS, START, ground_model, labels, problem, run, space
+from kstar_planner import planners
+from pydantic import ValidationError
+
+from skillwrapper.domains.burger.environment import BurgerEnvironment
+from skillwrapper.domains.burger.expert import expert_atoms, expert_model
+from skillwrapper.domains.burger.states import BurgerState
+from skillwrapper.errors import MissingDependencyError, UnknownNameError
+from skillwrapper.planning import (
+    KStar,
+    Planner,
+    PlannerSettings,
+    PlanningProblem,
+    PlanningStatus,
+    goal_from_state,
+    parse_goal,
+    write_pddl,
+)
+from skillwrapper.symbols import AbstractModel, GroundModel, Literal
+from skillwrapper.symbols.ground import GroundConditionalEffect
+from skillwrapper.symbols.pddl import print_domain, print_problem
+from skillwrapper.symbols.predicates import Atom
+from skillwrapper.world import Object, SkillInstance
+
+ENVIRONMENT = BurgerEnvironment()
+
+
+def holds(goal: str, state: BurgerState) -> bool:
+    true = set(expert_atoms(state))
+    return all((g.atom in true) == g.positive for g in parse_goal(goal, space()))
+
+
+def costs_by_plan_topk(asked: PlanningProblem, folder: Path, **options: str) -> list[int]:
+    files = write_pddl(asked, folder)
+    found = planners.plan_topk(files.domain, files.problem, 10, timeout=30, **options)
+    return [plan["cost"] for plan in found["plans"]]
+
+
+def costs_by_us(asked: PlanningProblem) -> list[int]:
+    return [len(plan) + 1 for plan in KStar.installed().search(asked, 10, 30.0).plans]
+
+
+@pytest.mark.parametrize("goal", STANDARD_GOALS)
+def test_ten_different_plans_that_work(goal: str) -> None:
+    result = Planner().solve(problem(goal))
+    assert result.status is PlanningStatus.SOLVED
+    assert len(result.plans) == 10
+    assert all(holds(goal, run(plan)) for plan in result.plans)
+
+
+@pytest.mark.parametrize("goal", STANDARD_GOALS)
+def test_costs_are_those_of_plan_topk(
+    goal: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)  # it leaves files behind
+    costs = costs_by_us(problem(goal))
+    assert len(costs) == 10
+    assert costs == costs_by_plan_topk(problem(goal), tmp_path)
+
+
+def test_conditional_effects_as_by_plan_topk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A kitchen without Cook, where cutting the lettuce also cooks a patty on the stove."""
+    monkeypatch.chdir(tmp_path)
+    asked = problem("(and (is_cut lettuce) (is_cooked patty))")
+    cooks = GroundConditionalEffect(
+        space().columns([Atom("on_station", ("patty", "stove"))]),
+        space().columns([Atom("holding", ("robot", "patty"))]),
+        space().column[Atom("is_cooked", ("patty",))],
+        1,
+    )
+    actions = [a for a in asked.actions if a.operator.skill != "Cook"]
+    actions = [
+        replace(a, conditional=(cooks,)) if a.operator.skill == "Cut" else a for a in actions
+    ]
+    asked = replace(asked, actions=tuple(actions))
+    costs = costs_by_us(asked)
+    assert costs[0] == 6
+    assert costs == costs_by_plan_topk(asked, tmp_path, search_heuristic="hmax()")
+    # With symmetries, as plan_topk has them, some of these plans would not work.
+    assert all(map(asked.is_plan, KStar.installed().search(asked, 10, 30.0).plans))
+
+
+def distance(start: BurgerState, goal: BurgerState) -> int | None:
+    found, waiting = {start: 0}, deque([start])
+    while waiting and goal not in found:
+        state = waiting.popleft()
+        for instance in ENVIRONMENT.domain.skill_instances:
+            success, following = ENVIRONMENT.successor(state, instance)
+            if success and following not in found:
+                found[following] = found[state] + 1
+                waiting.append(following)
+    return found.get(goal)
+
+
+def test_shortest_by_search_in_the_true_kitchen() -> None:
+    states = ENVIRONMENT.reachable_states()
+    chance = random.Random(3)
+    pairs = [(START, chance.choice(states)) for _ in range(5)]
+    pairs += [tuple(chance.choices(states, k=2)) for _ in range(5)]
+    for start, goal in pairs:
+        result = Planner(PlannerSettings(plans=2)).solve(problem(goal, start))
+        best = distance(start, goal)
+        assert (result.status is PlanningStatus.UNSOLVABLE) == (best is None)
+        if best is not None:
+            assert len(result.plans[0]) == best
+            assert run(result.plans[0], start) == goal
+
+
+def test_unified_planning_validates_the_plan_on_the_lifted_domain() -> None:
+    from unified_planning.engines import SequentialPlanValidator  # noqa: PLC0415
+    from unified_planning.io import PDDLReader  # noqa: PLC0415
+    from unified_planning.plans import ActionInstance, SequentialPlan  # noqa: PLC0415
+
+    asked, model = problem(STANDARD_GOALS[2]), expert_model()
+    (numbers, *_) = KStar.installed().search(asked, 1, 30.0).plans
+    printed = print_problem(model, model.domain.objects, expert_atoms(START), asked.goal)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        lifted = PDDLReader().parse_problem_string(print_domain(model), printed)
+        steps = []
+        for action in (asked.actions[number] for number in numbers):
+            names = [n if n != "robot" else "robot_2" for n in action.arguments]
+            terms = [lifted.object(n) for n in names]
+            steps.append(ActionInstance(lifted.action(action.operator.name.lower()), terms))
+        verdict = SequentialPlanValidator().validate(lifted, SequentialPlan(steps))
+        shortened = SequentialPlanValidator().validate(lifted, SequentialPlan(steps[1:]))
+    assert verdict
+    assert not shortened
+
+
+def test_goal_that_holds_already() -> None:
+    result = Planner().solve(problem("(hand_empty robot)"))
+    assert (result.status, result.plans) == (PlanningStatus.SOLVED, ((),))
+    assert problem(START).is_solved
+
+
+def test_unsolvable() -> None:
+    impossible = "(and (stacked_on patty topbun) (stacked_on topbun patty))"
+    result = Planner().solve(problem(impossible))
+    assert (result.status, result.plans) == (PlanningStatus.UNSOLVABLE, ())
+
+
+def test_unknown_at_the_start_counts_as_false_and_is_reported() -> None:
+    row, atom = labels(START), Atom("hand_empty", ("robot",))
+    row[space().column[atom]] = -1
+    asked = PlanningProblem.of(ground_model(), row, parse_goal("(is_cut lettuce)", space()))
+    result = Planner().solve(asked)
+    assert result.guessed == (atom,)
+    assert result.status is PlanningStatus.UNSOLVABLE
+
+
+def with_twins(skill: str, needs: str = "") -> AbstractModel:
+    """The expert's model with every operator of a skill twice, the second needing more."""
+    model = expert_model()
+    more = frozenset({Literal(Atom(needs, ("?robot",)), False)} if needs else ())
+    twins = [
+        replace(o.renamed(f"{o.name}_again"), preconditions=o.preconditions | more)
+        for o in model.operators_of(skill)
+    ]
+    return replace(model, operators=(*model.operators, *twins))
+
+
+@pytest.mark.parametrize("needs", ["", "hand_empty"])
+def test_same_skills_count_once(needs: str) -> None:
+    once, model = Planner().solve(problem(STANDARD_GOALS[2])), with_twins("Place", needs)
+    goal = problem(STANDARD_GOALS[2]).goal
+    result = Planner().plan(model, model.domain.objects, labels(START), goal)
+    assert [len(p) for p in result.plans] == [len(p) for p in once.plans]
+    assert len(result.plans) == 10
+
+
+def test_wrong_plans_of_a_planner_are_refused(tmp_path: Path) -> None:
+    plan = '{"cost": 2, "actions": ["action-0 ", "finish "]}'
+    program = tmp_path / "planner"
+    program.write_text(f"#!/bin/sh\necho '{{\"plans\": [{plan}]}}' > plans.json\n")
+    program.chmod(0o755)
+    result = Planner(engine=KStar(program)).solve(problem(STANDARD_GOALS[0]))
+    assert (result.status, result.plans) == (PlanningStatus.ERROR, ())
+    assert "1 of its plans do not reach the goal" in result.log
+
+
+def many_buns(number: int) -> PlanningProblem:
+    """Buns side by side, to be stacked in an order that leaves too much choice."""
+    model = expert_model()
+    buns = [Object(f"bun{i}", ("pickupable",)) for i in range(number)]
+    kept = [o for o in model.domain.objects if "pickupable" not in o.types]
+    ground = GroundModel.of(model, [*kept, *buns])
+    true = {"hand_empty", "nothing_on", "station_free"}
+    row = np.array([a.predicate in true for a in ground.space.atoms], dtype=np.int8)
+    on_bun2 = [Literal(Atom("stacked_on", (f"bun{i}", "bun2"))) for i in (1, 3)]
+    return PlanningProblem.of(ground, row, on_bun2)
+
+
+def test_out_of_time_is_not_unsolvable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    result = Planner(PlannerSettings(time_limit=0.5)).solve(many_buns(10))
+    assert (result.status, result.plans) == (PlanningStatus.TIMEOUT, ())
+    assert result.seconds < 5
+    assert not list(tmp_path.iterdir())
+
+
+def test_planner_that_hangs_is_killed(tmp_path: Path) -> None:
+    program = tmp_path / "hangs"
+    program.write_text("#!/bin/sh\nsleep 60\n", encoding="utf-8")
+    program.chmod(0o755)
+    outcome = KStar(program).search(problem(STANDARD_GOALS[0]), 1, 0.2)
+    assert outcome.status is PlanningStatus.TIMEOUT
+
+
+@pytest.mark.parametrize(
+    ("script", "expected"),
+    [
+        ("echo broken; exit 32", PlanningStatus.ERROR),
+        ("kill -SEGV $$", PlanningStatus.ERROR),
+        ("exit 12", PlanningStatus.UNSOLVABLE),
+        ("echo 'search::time limit reached'; exit 12", PlanningStatus.TIMEOUT),
+        ("sleep 0.5; exit 12", PlanningStatus.TIMEOUT),
+        ("echo '{\"plans\": [' > plans.json; exit 0", PlanningStatus.TIMEOUT),
+    ],
+)
+def test_what_an_end_of_the_planner_means(
+    tmp_path: Path, script: str, expected: PlanningStatus
+) -> None:
+    program = tmp_path / "planner"
+    program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+    program.chmod(0o755)
+    seconds = 0.4 if "sleep" in script else 30.0
+    result = Planner(PlannerSettings(time_limit=seconds), KStar(program)).solve(
+        problem(STANDARD_GOALS[0])
+    )
+    assert result.status is expected
+
+
+def test_goal_about_what_is_not_in_the_scene() -> None:
+    goal = [Literal(Atom("is_cut", ("tomato",)))]
+    with pytest.raises(UnknownNameError, match=r"unknown ground atom 'is_cut\(tomato\)'"):
+        PlanningProblem.of(ground_model(), labels(START), goal)
+
+
+def test_missing_planner(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(MissingDependencyError, match="pip install kstar-planner"):
+        Planner()
+
+
+@pytest.mark.parametrize("settings", [{"plans": 0}, {"time_limit": 0}, {"time": 3}])
+def test_settings_that_make_no_sense(settings: dict[str, float]) -> None:
+    with pytest.raises(ValidationError):
+        PlannerSettings(**settings)
+
+
+def test_files_are_kept_if_asked_for(tmp_path: Path) -> None:
+    model = expert_model()
+    goal = goal_from_state(space(), labels(START))
+    Planner().plan(model, model.domain.objects, labels(START), goal, keep_files=tmp_path)
+    domain = (tmp_path / "domain.pddl").read_text(encoding="utf-8")
+    assert "; Pick(robot, lettuce)" in domain
+    assert "(not (is_cut--lettuce))" in domain
+    assert "forall" not in domain
+
+
+def test_same_problem_same_plans() -> None:
+    first, second = (Planner().solve(problem(STANDARD_GOALS[2])) for _ in range(2))
+    assert first.plans == second.plans
+    assert isinstance(first.plans[0][0], SkillInstance)
