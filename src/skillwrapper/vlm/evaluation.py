@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
-from skillwrapper.symbols.predicates import Atom, all_groundings
+from skillwrapper.symbols.predicates import Atom, Predicate, all_groundings
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.parsing import parse_labels
 from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.vlm.requests import RequestBuilder
 from skillwrapper.vlm.settings import AssistantSettings
 from skillwrapper.vlm.waves import run_wave
+from skillwrapper.world.types import Object
 
 _Labels = dict[Atom, bool | None]
 
@@ -42,12 +44,13 @@ class Evaluator:
 
     def evaluate(self, questions: Sequence[EvaluationQuestion]) -> list[EvaluationAnswer]:
         """Answer all questions in one wave of calls."""
-        tasks = [task for question in questions for task in self._tasks(question)]
-        results = iter(run_wave(self._label, tasks, self._settings.parallel))
-        return [self._answer(question, results) for question in questions]
+        tasks = [list(self._tasks(question)) for question in questions]
+        wave = [task for mine in tasks for task in mine]
+        results = iter(run_wave(self._label, wave, self._settings.parallel))
+        return [self._answer(mine, results) for mine in tasks]
 
     def _tasks(self, question: EvaluationQuestion) -> Iterator[_Task]:
-        atoms = all_groundings(question.predicates, question.objects)
+        atoms = _groundings(question.predicates, question.objects)
         size = self._settings.batch_size
         for start in range(0, len(atoms), size):
             for vote in range(self._settings.votes):
@@ -80,17 +83,21 @@ class Evaluator:
         named = ", ".join(map(str, parsed.missing[:3]))
         return parsed.labels, parsed.missing, f"no clear judgement on {named}"
 
-    def _answer(self, question: EvaluationQuestion, results: Iterator[_Labels]) -> EvaluationAnswer:
-        """Join the batches of a question, taking as many results as it had tasks."""
+    def _answer(self, tasks: Sequence[_Task], results: Iterator[_Labels]) -> EvaluationAnswer:
+        """Join the batches and votes of a question; there is one result for each task."""
         labels: _Labels = {}
         agreement: dict[Atom, float] = {}
-        for task in self._tasks(question):
-            if task.vote == 0:
-                votes = [next(results) for _ in range(self._settings.votes)]
-                for atom in task.atoms:
-                    label, share = majority([vote[atom] for vote in votes], self._settings.margin)
-                    labels[atom], agreement[atom] = label, share
+        for task in tasks[:: self._settings.votes]:
+            votes = [next(results) for _ in range(self._settings.votes)]
+            for atom in task.atoms:
+                cast = [vote[atom] for vote in votes]
+                labels[atom], agreement[atom] = majority(cast, self._settings.margin)
         return EvaluationAnswer(labels, agreement if self._settings.votes > 1 else {})
+
+
+@lru_cache(maxsize=64)
+def _groundings(predicates: tuple[Predicate, ...], objects: tuple[Object, ...]) -> tuple[Atom, ...]:
+    return all_groundings(predicates, objects)
 
 
 def majority(votes: Sequence[bool | None], margin: float = 0.0) -> tuple[bool | None, float]:
@@ -100,6 +107,8 @@ def majority(votes: Sequence[bool | None], margin: float = 0.0) -> tuple[bool | 
         votes: at least one; a None counts for neither side.
         margin: by what share of all votes the winner must lead; a tie is always unknown.
     """
+    if len(votes) == 1:
+        return votes[0], 1.0
     counts = Counter(votes)
     yes, no = counts[True], counts[False]
     if yes == no or abs(yes - no) / len(votes) < margin:

@@ -14,8 +14,8 @@ from skillwrapper.vlm.parsing.labels import parse_labels
 
 _WORDINGS: tuple[dict[bool | None, str], ...] = (
     {True: "- {} is true.", False: "- {} is false.", None: "- {} cannot be told."},
-    {True: "{}: yes", False: "{}: no", None: "{}: not clear"},
-    {True: "* {} holds", False: "* {} does not hold", None: "* {} is uncertain"},
+    {True: "{}: yes", False: "{}: no", None: "{}: unclear"},
+    {True: "* {}: true", False: "* {}: false", None: "* {}: uncertain"},
 )
 _GROUPS = {True: "True:", False: "False:", None: "Unsure:"}
 _LABELS = {True: "true", False: "false", None: "unsure"}
@@ -43,7 +43,7 @@ def describe(sight: Sight) -> str:
         sentences.append(f"I see the {robot}; over its head there is {held or 'nothing'}.")
     for upper, lower in sorted(scene.on.items()):
         looks = " and ".join(sorted(scene.attributes.get(upper, ())))
-        seen = f"The {upper} ({looks})" if looks else f"The {upper}"
+        seen = f"The {upper}, {looks}," if looks else f"The {upper}"
         sentences.append(f"{seen} is seen on the {lower.replace('_', ' ')}.")
     return " ".join(sentences)
 

@@ -13,6 +13,7 @@ _OBJECT = re.compile(r"^- ([\w-]+) \(([^()]*)\)")
 _SKILL = re.compile(r"^- ([\w-]+)\(")
 _PARAMETER = re.compile(r"^\s+- ([\w-]+) \(([\w-]+)\)")
 _PREDICATE = re.compile(r"^- ([\w-]+)\(([^()]*)\)(?::\s*(.*))?$")
+_CALL = re.compile(r"^- ([\w-]+)\(([^()]*)\)")
 _EXECUTION = re.compile(r"^(\d+)\. (.*\)) (succeeded|failed)")
 _PICTURE = re.compile(r"^- Picture (\d+): ([^,]*)")
 _ALLOWED = re.compile(r"^- \?([\w-]+) \(at most (once|twice)\)")
@@ -114,9 +115,9 @@ class PromptText:
         )
 
     def calls(self, title: str) -> tuple[WrittenCall, ...]:
-        """The list items of a section, as far as they are calls; the first call of each."""
-        items = (find_calls(line) for line in self.lines(title) if line.startswith("- "))
-        return tuple(WrittenCall(c[0].name, c[0].arguments) for c in items if c)
+        """The list items of a section that begin with a call."""
+        found = (_CALL.match(line) for line in self.lines(title))
+        return tuple(WrittenCall(m.group(1), _split(m.group(2))) for m in found if m)
 
     @cached_property
     def executions(self) -> tuple[tuple[WrittenCall, bool], ...]:
@@ -152,7 +153,7 @@ class PromptText:
 
 
 def _split(listing: str) -> tuple[str, ...]:
-    return tuple(part.strip() for part in listing.split(",") if part.strip())
+    return tuple(listing.replace(",", " ").split())
 
 
 def covers(wider: Sequence[str], objects: dict[str, frozenset[str]], *given: str) -> bool:

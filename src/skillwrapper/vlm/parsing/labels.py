@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from skillwrapper.symbols.predicates import Atom
 from skillwrapper.vlm.parsing.calls import Call, find_calls
 from skillwrapper.vlm.parsing.lines import excerpt, plain_lines, without_lead
-from skillwrapper.vlm.parsing.names import NameIndex
+from skillwrapper.vlm.parsing.names import NameIndex, fold
 from skillwrapper.vlm.parsing.structured import flatten_json
 
 _WORDS = {
@@ -78,6 +78,8 @@ _HEADING = re.compile(
     r"|facts?|ones?))?\s*(?:\(\d+\))?\s*:?\W*$",
     re.IGNORECASE,
 )
+_PLAIN_LINE = re.compile(r"^[-*]? ?([\w-]+\([\w, -]*\))(?::| is) (\w+)\.?$")
+"""The form that is asked for, read without further ado: most lines have it."""
 _MOST_ARGUMENTS = 4
 
 
@@ -105,7 +107,8 @@ def parse_labels(reply: str, atoms: Sequence[Atom]) -> ParsedLabels:
     finder = _AtomFinder(atoms)
     said: dict[Atom, set[bool | None]] = {}
     unusable: list[str] = []
-    for line, call, verdicts in _judgements(plain_lines(flatten_json(reply))):
+    lines = list(_after_plain_lines(plain_lines(flatten_json(reply)), finder, said))
+    for line, call, verdicts in _judgements(lines, finder.nullary):
         atom = finder.find(call)
         if atom is None:
             unusable.append(f"{call}: not asked for, or not clear what is meant")
@@ -122,7 +125,23 @@ def parse_labels(reply: str, atoms: Sequence[Atom]) -> ParsedLabels:
     return ParsedLabels(labels, tuple(a for a in atoms if a not in labels), tuple(unusable))
 
 
-def _judgements(lines: Iterable[str]) -> Iterator[tuple[str, Call, list[bool | None]]]:
+def _after_plain_lines(
+    lines: Iterable[str], finder: _AtomFinder, said: dict[Atom, set[bool | None]]
+) -> Iterator[str]:
+    """Take in what is written as asked for; pass on all other lines."""
+    for line in lines:
+        found = _PLAIN_LINE.match(line)
+        atom = finder.by_text.get(found.group(1)) if found else None
+        word = found.group(2).casefold() if found else ""
+        if atom is not None and word in _VERDICTS:
+            said.setdefault(atom, set()).add(_VERDICTS[word])
+        else:
+            yield line
+
+
+def _judgements(
+    lines: Iterable[str], nullary: frozenset[str]
+) -> Iterator[tuple[str, Call, list[bool | None]]]:
     """Every call in the reply with the verdicts that belong to it."""
     heading: list[bool | None] = []
     for raw in lines:
@@ -132,7 +151,7 @@ def _judgements(lines: Iterable[str]) -> Iterator[tuple[str, Call, list[bool | N
             heading = [_heading_verdict(title.group(1))]
             continue
         calls = [c for c in find_calls(line) if c.name.casefold() not in _VERDICTS]
-        calls = calls or _nullary(line)
+        calls = calls or _nullary(line, nullary)
         if not calls and line.endswith(":"):
             heading = []
         shared = _shared_verdict(line, calls)
@@ -154,10 +173,12 @@ def _shared_verdict(line: str, calls: Sequence[Call]) -> list[bool | None]:
     return [_VERDICTS[front.group(1).casefold()]] if front else []
 
 
-def _nullary(line: str) -> list[Call]:
+def _nullary(line: str, known: frozenset[str]) -> list[Call]:
     """A grounding without arguments may come without parentheses."""
-    found = re.match(r"^\W*([A-Za-z][\w-]*)\W*(?=[:=|]|\s-)", line)
-    return [Call(found.group(1), (), found.start(1), found.end(1))] if found else []
+    found = re.match(r"^\W*([A-Za-z][\w-]*)\W*(?=[:=|]|\s-)", line) if known else None
+    if found is None or fold(found.group(1)) not in known:
+        return []
+    return [Call(found.group(1), (), found.start(1), found.end(1))]
 
 
 def _verdict(before: str, after: str) -> list[bool | None]:
@@ -200,6 +221,8 @@ class _AtomFinder:
     """Finds the grounding that a written atom stands for."""
 
     def __init__(self, atoms: Sequence[Atom]) -> None:
+        self.by_text = {str(a): a for a in atoms}
+        self.nullary = frozenset(fold(a.predicate) for a in atoms if not a.terms)
         self._exact = {(a.predicate, a.terms): a for a in atoms}
         self._predicates = NameIndex(a.predicate for a in atoms)
         self._objects = NameIndex(term for a in atoms for term in a.terms)
