@@ -59,7 +59,7 @@ def encode_png(image: Image.Image) -> bytes:
     """PNG bytes of an image in RGB; fast compression, the same bytes for the same pixels."""
     # Pillow tries five filters for every row, which takes longer than all the rest and gains
     # nothing on drawn pictures; so the rows are written here, unfiltered.
-    pixels = np.asarray(image.convert("RGB"))
+    pixels = np.asarray(image if image.mode == "RGB" else image.convert("RGB"))
     height, width = pixels.shape[:2]
     rows = np.zeros((height, 1 + 3 * width), np.uint8)
     rows[:, 1:] = pixels.reshape(height, 3 * width)
