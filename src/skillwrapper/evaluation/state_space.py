@@ -1,0 +1,80 @@
+"""The whole true state space of a domain that can list its states."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.skills import SkillInstance, ground_skills
+
+
+@dataclass(frozen=True)
+class StateSpace:
+    """Every reachable state with the outcome of every skill instance.
+
+    Attributes:
+        states: the reachable states, the start first.
+        instances: all skill instances over the objects of the scene.
+        success: whether an instance succeeds in a state (states, instances).
+        following: index of the state after a success (states, instances); a state's own index
+            where the instance fails.
+    """
+
+    states: tuple[Any, ...]
+    instances: tuple[SkillInstance, ...]
+    success: NDArray[np.bool_]
+    following: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, environment: EnumerableEnvironment) -> StateSpace:
+        """Run every skill instance in every state that the standard start leads to."""
+        domain = environment.domain
+        states = tuple(environment.reachable_states())
+        instances = ground_skills(domain.skills, domain.scene_objects(environment.scene))
+        index = {state: number for number, state in enumerate(states)}
+        success = np.zeros((len(states), len(instances)), dtype=np.bool_)
+        following = np.repeat(np.arange(len(states))[:, np.newaxis], len(instances), axis=1)
+        for row, state in enumerate(states):
+            for column, instance in enumerate(instances):
+                succeeded, after = environment.successor(state, instance)
+                if succeeded:
+                    success[row, column] = True
+                    following[row, column] = index[after]
+        return cls(states, instances, success, following)
+
+    def path_to(self, state: int) -> tuple[SkillInstance, ...]:
+        """A shortest sequence of skill instances that leads from the start to a state."""
+        steps = []
+        while state != 0:
+            state, instance = self._arrivals[state]
+            steps.append(self.instances[instance])
+        return tuple(reversed(steps))
+
+    @cached_property
+    def distance(self) -> NDArray[np.intp]:
+        """Number of skills on a shortest path from the start to every state (states,)."""
+        distances = np.zeros(len(self.states), dtype=np.intp)
+        for state, (before, _) in self._arrivals.items():
+            distances[state] = distances[before] + 1
+        return distances
+
+    @cached_property
+    def _arrivals(self) -> Mapping[int, tuple[int, int]]:
+        """For every state but the start: the state before and the instance, breadth first."""
+        arrivals: dict[int, tuple[int, int]] = {}
+        waiting = deque([0])
+        while waiting:
+            state = waiting.popleft()
+            for instance in np.flatnonzero(self.success[state]):
+                after = int(self.following[state, instance])
+                if after != 0 and after not in arrivals:
+                    arrivals[after] = (state, int(instance))
+                    waiting.append(after)
+        return arrivals
