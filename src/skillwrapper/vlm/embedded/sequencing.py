@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Sequence
 
 from skillwrapper.vlm.embedded.chance import Chance
@@ -47,6 +48,7 @@ class _Walker:
             line[2:].strip() for line in prompt.lines("Skills that seldom worked so far")
         )
         self._pairs = frozenset(_pairs(prompt.lines("Least explored pairs")))
+        self._instances_of = Counter(call.name for call in self._instances)
         everywhere = [set(call.arguments) for call in self._instances]
         self._common = set.intersection(*everywhere) if everywhere else set()
 
@@ -58,7 +60,9 @@ class _Walker:
         return steps
 
     def _weight(self, last: Sequence[WrittenCall], call: WrittenCall) -> float:
-        weight = _SCARCE_SKILL if call.name in self._scarce else 1.0
+        weight = 1 / self._instances_of[call.name]  # every skill alike, however many objects fit
+        if call.name in self._scarce:
+            weight *= _SCARCE_SKILL
         for previous in last:
             if previous == call:
                 weight *= _REPEATED
