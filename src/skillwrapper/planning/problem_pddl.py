@@ -30,7 +30,8 @@ class PlannerFiles:
 
 
 def write_pddl(problem: PlanningProblem, folder: Path) -> PlannerFiles:
-    """Write ``domain.pddl`` and ``problem.pddl`` into a folder."""
+    """Write ``domain.pddl`` and ``problem.pddl`` into a folder, which is made if need be."""
+    folder.mkdir(parents=True, exist_ok=True)
     files = PlannerFiles(folder / "domain.pddl", folder / "problem.pddl")
     printer = _Printer(problem, _atom_names(problem))
     files.domain.write_text(printer.domain(), encoding="utf-8")

@@ -13,19 +13,14 @@ from dataclasses import dataclass
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.world.types import Object
 
-KEYWORDS = frozenset(
-    re.findall(
-        r"\S+",
-        """
-        action all always and assign at axiom both constants decrease define derived domain
-        duration effect either end exists false forall functions goal imply increase init
-        maximize metric minimize new not number object objects oneof or over parameters
-        precondition preconditions predicates preference problem requirements scale-down
-        scale-up sometime start thing timeless total-cost total-time true types undefined
-        when within
-        """,
-    )
-)
+_KEYWORDS = """
+action all always and assign at axiom both constants decrease define derived domain duration
+effect either end exists false forall functions goal imply increase init maximize metric minimize
+new not number object objects oneof or over parameters precondition preconditions predicates
+preference problem requirements scale-down scale-up sometime start thing timeless total-cost
+total-time true types undefined when within
+"""
+KEYWORDS = frozenset(_KEYWORDS.split())
 
 
 def unique_names(names: Iterable[str], taken: set[str]) -> dict[str, str]:
