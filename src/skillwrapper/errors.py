@@ -14,6 +14,8 @@ SkillWrapperError
 │   ├── ModelNotFoundError
 │   ├── ModelCapabilityError  the model cannot do what is asked (see pictures, ...)
 │   ├── ModelUnavailableError no usable answer after all attempts
+│   ├── TemporaryProviderError  busy, slow or cut off; another attempt may work
+│   │   └── UnusableReplyError  the model refused, or replied nothing
 │   └── RecordingError        a recorded run was asked something it never heard
 ├── LimitReachedError         nobody: a limit the user set was reached; the run can be resumed
 ├── RobotError                the environment: a robot or simulator did not do its part
@@ -25,6 +27,10 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from skillwrapper.vlm.protocol import Usage
 
 
 class SkillWrapperError(Exception):
@@ -110,6 +116,34 @@ class ModelCapabilityError(ProviderError):
 
 class ModelUnavailableError(ProviderError):
     """No usable answer came after all attempts."""
+
+
+class TemporaryProviderError(ProviderError):
+    """An attempt failed in a way that another attempt may not.
+
+    Args:
+        message: what happened.
+        retry_after: how many seconds the provider asks to wait; None if it does not say.
+    """
+
+    def __init__(self, message: str, retry_after: float | None = None) -> None:
+        super().__init__(message)
+        self.retry_after = retry_after
+
+
+class UnusableReplyError(TemporaryProviderError):
+    """The model refused, or replied nothing.
+
+    Args:
+        message: what happened.
+        kind: ``"refused"`` or ``"empty"``.
+        text: what it said, may be empty.
+        usage: what the call took, if the provider says.
+    """
+
+    def __init__(self, message: str, kind: str, text: str = "", usage: Usage | None = None) -> None:
+        super().__init__(message)
+        self.kind, self.text, self.usage = kind, text, usage
 
 
 class RecordingError(ProviderError):

@@ -372,3 +372,21 @@ def test_every_role_needs_a_model() -> None:
 def test_settings_are_checked(name: str, value: float) -> None:
     with pytest.raises(ConfigurationError, match=name):
         AssistantSettings(**{name: value})  # type: ignore[arg-type]
+
+
+class ForgettingModel(ScriptedModel):
+    """Remembers which replies were of no use."""
+
+    def take_back(self, request: ModelRequest) -> None:
+        self.requests.remove(request)
+
+
+def test_models_that_keep_replies_are_told_which_were_of_no_use(burger: Domain) -> None:
+    replies = iter(["nothing", "Pick(robot, patty)", "I see.", "No idea.", "I see.", "No idea."])
+    model = ForgettingModel(lambda _: next(replies))
+    helper = Assistant(ModelSet.of(model), settings=AssistantSettings(reasks=1))
+
+    helper.propose_sequences(proposal(burger))
+    helper.evaluate([evaluation(burger)])
+
+    assert [(r.role, r.repetition) for r in model.requests] == [(Role.PROPOSE, 1)]

@@ -114,13 +114,18 @@ class Assistant:
         usable: Callable[[Parsed], bool],
     ) -> Parsed:
         """The first usable reading of a reply, or the last one if none is."""
-        parsed = parse(self._models.complete(request).text)
+        asked = request
+        parsed = parse(self._models.complete(asked).text)
         for time in range(1, self._settings.asks):
             if usable(parsed):
-                break
+                return parsed
+            self._models.take_back(asked)
             problem = parsed.unusable[0] if parsed.unusable else "it holds nothing usable"
             again = self._requests.again(request, problem, time)
-            parsed = parse(self._models.complete(replace(again, repetition=time)).text)
+            asked = replace(again, repetition=time)
+            parsed = parse(self._models.complete(asked).text)
+        if not usable(parsed):
+            self._models.take_back(asked)
         return parsed
 
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 from skillwrapper.symbols.predicates import Atom, Predicate, all_groundings
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.parsing import parse_labels
+from skillwrapper.vlm.protocol import ModelRequest
 from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.vlm.requests import RequestBuilder
 from skillwrapper.vlm.settings import AssistantSettings
@@ -70,18 +71,22 @@ class Evaluator:
     def _ask(
         self, task: _Task, atoms: tuple[Atom, ...], time: int, problem: str
     ) -> tuple[Mapping[Atom, bool | None], tuple[Atom, ...], str]:
+        """What is found out, what is still missing, and what to say when asking again."""
         repetition = task.vote * self._settings.asks + time
-        request = self._requests.evaluation(task.question, atoms)
-        if time:
-            request = self._requests.again(request, problem, time)
-        free = self._models.complete(replace(request, repetition=repetition)).text
-        summary = self._requests.summary(task.question, atoms, free)
-        if time:
-            summary = self._requests.again(summary, problem, time)
-        reply = self._models.complete(replace(summary, repetition=repetition)).text
-        parsed = parse_labels(reply, atoms)
+        judging = self._again(self._requests.evaluation(task.question, atoms), problem, time)
+        judging = replace(judging, repetition=repetition)
+        free = self._models.complete(judging).text
+        summing = self._again(self._requests.summary(task.question, atoms, free), problem, time)
+        summing = replace(summing, repetition=repetition)
+        parsed = parse_labels(self._models.complete(summing).text, atoms)
+        if not parsed.labels:
+            self._models.take_back(judging)
+            self._models.take_back(summing)
         named = ", ".join(map(str, parsed.missing[:3]))
         return parsed.labels, parsed.missing, f"no clear judgement on {named}"
+
+    def _again(self, request: ModelRequest, problem: str, time: int) -> ModelRequest:
+        return self._requests.again(request, problem, time) if time else request
 
     def _answer(self, tasks: Sequence[_Task], results: Iterator[_Labels]) -> EvaluationAnswer:
         """Join the batches and votes of a question; there is one result for each task."""

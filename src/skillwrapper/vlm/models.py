@@ -6,7 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, VisionLanguageModel
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    Role,
+    TakesBack,
+    VisionLanguageModel,
+)
 
 
 @dataclass(frozen=True)
@@ -40,3 +46,9 @@ class ModelSet:
     def complete(self, request: ModelRequest) -> ModelReply:
         """Let the model of the request's role answer."""
         return self.by_role[request.role].complete(request)
+
+    def take_back(self, request: ModelRequest) -> None:
+        """Tell the model of the request's role that its reply was of no use."""
+        model = self.by_role[request.role]
+        if isinstance(model, TakesBack):
+            model.take_back(request)

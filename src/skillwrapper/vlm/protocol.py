@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from skillwrapper.world.observation import Picture
 
@@ -88,4 +88,13 @@ class VisionLanguageModel(Protocol):
         Raises:
             ProviderError: if no usable answer comes.
         """
+        ...
+
+
+@runtime_checkable
+class TakesBack(Protocol):
+    """A model that keeps replies, and can be told that one of them was of no use."""
+
+    def take_back(self, request: ModelRequest) -> None:
+        """Do not serve the reply to a request again."""
         ...

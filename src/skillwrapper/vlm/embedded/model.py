@@ -92,9 +92,9 @@ class EmbeddedModel:
         """What a prompt asks for is told by its sections, so that users may reword it."""
         if "Text" in prompt:
             return summarise(prompt)
-        if "Least explored pairs" in prompt:
-            return propose_sequences(prompt, chance)
         sights = [self._eye.look(picture.png, picture.sha256) for picture in pictures]
+        if "Least explored pairs" in prompt:
+            return propose_sequences(prompt, _first(sights), self._judgement, chance)
         if "Statements" in prompt:
             return judge_picture(prompt, _first(sights), self._judgement, chance)
         if "Run so far" in prompt:

@@ -1,4 +1,5 @@
-"""Answering the proposal prompt: random walks that like to stay with an object."""
+"""Answering the proposal prompt: walks by chance that like to stay with an object, and that
+often, not always, take a skill of which the prompt's own operators say that it works."""
 
 from __future__ import annotations
 
@@ -7,13 +8,18 @@ from collections import Counter
 from collections.abc import Sequence
 
 from skillwrapper.vlm.embedded.chance import Chance
+from skillwrapper.vlm.embedded.noise import Judgement
 from skillwrapper.vlm.embedded.prompt_text import PromptText, WrittenCall
+from skillwrapper.vlm.embedded.rehearsing import Facts, Rehearsal
+from skillwrapper.vlm.embedded.sight import Sight
 from skillwrapper.vlm.parsing.calls import find_calls
 
 _SAME_OBJECT = 4.0
-_SCARCE_SKILL = 3.0
+_SCARCE_SKILL = 2.0
 _UNEXPLORED_PAIR = 3.0
 _REPEATED = 0.05
+_LIKELY_STEPS = 0.8
+"""Share of the steps that are taken among those that should work, as far as is known."""
 _COUNT = r"[Pp]lan (\d+) different"
 _LENGTH = r"at least (\d+) skills"
 
@@ -28,9 +34,11 @@ def all_instances(prompt: PromptText) -> tuple[WrittenCall, ...]:
     )
 
 
-def propose_sequences(prompt: PromptText, chance: Chance) -> str:
+def propose_sequences(
+    prompt: PromptText, sight: Sight | None, judgement: Judgement, chance: Chance
+) -> str:
     """As many sequences as wanted, as long as wanted."""
-    walker = _Walker(prompt)
+    walker = _Walker(prompt, Rehearsal(prompt, sight, judgement))
     count, length = prompt.number(_COUNT, 5), prompt.number(_LENGTH, 15)
     blocks = []
     for number in range(1, count + 1):
@@ -42,7 +50,8 @@ def propose_sequences(prompt: PromptText, chance: Chance) -> str:
 class _Walker:
     """Knows what the prompt asks to prefer; holds no rule of when a skill works."""
 
-    def __init__(self, prompt: PromptText) -> None:
+    def __init__(self, prompt: PromptText, rehearsal: Rehearsal) -> None:
+        self._rehearsal = rehearsal
         self._instances = all_instances(prompt)
         self._scarce = frozenset(
             line[2:].strip() for line in prompt.lines("Skills that seldom worked so far")
@@ -54,10 +63,25 @@ class _Walker:
 
     def walk(self, length: int, chance: Chance) -> list[WrittenCall]:
         steps: list[WrittenCall] = []
+        facts = self._rehearsal.start
         while self._instances and len(steps) < length:
-            weights = [self._weight(steps[-1:], call) for call in self._instances]
-            steps.append(chance.pick_weighted(self._instances, weights))
+            choices = self._instances
+            if chance.happens(_LIKELY_STEPS):
+                choices = self._likely(facts) or choices
+            weights = [self._weight(steps[-1:], call) for call in choices]
+            steps.append(chance.pick_weighted(choices, weights))
+            following = self._rehearsal.outcome(facts, steps[-1])
+            facts = facts if following is None else following
         return steps
+
+    def _likely(self, facts: Facts) -> tuple[WrittenCall, ...]:
+        """What should work as far as is known, and what nothing is known of."""
+        rehearsal = self._rehearsal
+        return tuple(
+            call
+            for call in self._instances
+            if not rehearsal.is_known(call) or rehearsal.outcome(facts, call) is not None
+        )
 
     def _weight(self, last: Sequence[WrittenCall], call: WrittenCall) -> float:
         weight = 1 / self._instances_of[call.name]  # every skill alike, however many objects fit

@@ -1,0 +1,132 @@
+"""A model whose calls are kept, and which is not asked what it has answered before."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+
+from skillwrapper.errors import UnusableReplyError
+from skillwrapper.vlm.call_key import call_key, question_key
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
+from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
+
+
+class StoredModel:
+    """Keeps every call of a model in a run's store, and serves from it.
+
+    Args:
+        model: the model that is asked what no store knows.
+        store: of the run; every call is recorded here.
+        shared: a store that several runs share, if any; asked second, and told what is new.
+        iteration: tells the present iteration of the run.
+    """
+
+    def __init__(
+        self,
+        model: VisionLanguageModel,
+        store: CallStore,
+        shared: CallStore | None = None,
+        iteration: Callable[[], int | None] = lambda: None,
+    ) -> None:
+        self._model, self._store, self._shared = model, store, shared
+        self._iteration = iteration
+        self._asking = _KeyedLocks()
+
+    @property
+    def name(self) -> str:
+        """The name of the model behind."""
+        return self._model.name
+
+    @property
+    def parameters(self) -> Mapping[str, str | int | float | bool]:
+        """The parameters of the model behind."""
+        return self._model.parameters
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        """Serve what is known, or ask and record.
+
+        Raises:
+            ProviderError: as the model behind does; refused and empty replies are recorded.
+            RunFolderError: if a store cannot be used.
+        """
+        key = self._key(request)
+        with self._asking.hold(key):
+            return self._served(key, request) or self._asked(key, request)
+
+    def take_back(self, request: ModelRequest) -> None:
+        """Record that the reply to a request was of no use."""
+        key = self._key(request)
+        self._store.mark_unusable(key)
+        if self._shared is not None:
+            self._shared.mark_unusable(key)
+
+    def _served(self, key: str, request: ModelRequest) -> ModelReply | None:
+        known = self._store.find(key)
+        if known is None and self._shared is not None:
+            known = self._shared.find(key)
+            if known is not None:
+                self._store.add(replace(known, iteration=self._iteration(), shared=True))
+        if known is None:
+            return None
+        self._store.count_served(request.role, self._iteration())
+        return ModelReply(known.reply, replace(known.usage, cost=0.0, seconds=0.0))
+
+    def _asked(self, key: str, request: ModelRequest) -> ModelReply:
+        try:
+            reply = self._model.complete(request)
+        except UnusableReplyError as error:
+            status = CallStatus.REFUSED if error.kind == "refused" else CallStatus.EMPTY
+            self._record(key, request, status, error.text, error.usage or Usage())
+            raise
+        self._record(key, request, CallStatus.ANSWERED, reply.text, reply.usage)
+        return reply
+
+    def _record(
+        self, key: str, request: ModelRequest, status: CallStatus, text: str, usage: Usage
+    ) -> None:
+        call = StoredCall(
+            key=key,
+            question=question_key(request),
+            status=status,
+            role=request.role,
+            iteration=self._iteration(),
+            model=self.name,
+            parameters=json.dumps(dict(self.parameters), sort_keys=True),
+            repetition=request.repetition,
+            system=request.system,
+            prompt=request.prompt,
+            pictures=tuple(picture.sha256 for picture in request.pictures),
+            reply=text,
+            usage=usage,
+        )
+        self._store.add(call)
+        if self._shared is not None and status is CallStatus.ANSWERED:
+            self._shared.add(replace(call, iteration=None))
+
+    def _key(self, request: ModelRequest) -> str:
+        return call_key(self.name, self.parameters, request)
+
+
+class _KeyedLocks:
+    """One lock for every key in use: the same question in flight twice is asked once."""
+
+    def __init__(self) -> None:
+        self._guard = threading.Lock()
+        self._locks: dict[str, tuple[threading.Lock, int]] = {}
+
+    @contextmanager
+    def hold(self, key: str) -> Iterator[None]:
+        with self._guard:
+            lock, users = self._locks.get(key, (threading.Lock(), 0))
+            self._locks[key] = lock, users + 1
+        try:
+            with lock:
+                yield
+        finally:
+            with self._guard:
+                lock, users = self._locks.pop(key)
+                if users > 1:
+                    self._locks[key] = lock, users - 1
