@@ -29,6 +29,9 @@ OTHER = -1
 Pattern = tuple[str, tuple[int, ...]]
 """A predicate with the positions of its terms; at most one of them is ``OTHER``."""
 
+_Witnesses = list[NDArray[np.bool_]]
+"""For every group the objects of the scene (rows, objects) that an existential context may be."""
+
 
 @dataclass(frozen=True)
 class ExistentialContext:
@@ -176,25 +179,28 @@ def _merge_existentials(
 ) -> tuple[ExistentialContext, ...]:
     """One context object for all patterns that one object can always meet together.
 
-    Different context objects must be different (D4): a pattern for which no separate witness
+    Different context objects must be different (D4): a pattern for which no object of its own
     is always there is left out.
     """
-    merged: list[tuple[list[Pattern], list[NDArray[np.bool_]]]] = []
+    merged: list[list[Pattern]] = []
+    contexts: list[_Witnesses] = []
     for pattern in patterns:
-        witnesses = [_witnesses(group, pattern) for group in groups]
-        for known, common in merged:
-            both = [a & b for a, b in zip(common, witnesses, strict=True)]
-            if all(w.any(axis=1).all() for w in both):
-                known.append(pattern)
-                common[:] = both
+        own = [_witnesses(group, pattern) for group in groups]
+        for number, known in enumerate(contexts):
+            both = [a & b for a, b in zip(known, own, strict=True)]
+            if _distinct(both, _without(contexts, number)):
+                merged[number].append(pattern)
+                contexts[number] = both
                 break
         else:
-            if _separate([c for _, c in merged], witnesses):
-                merged.append(([pattern], witnesses))
-    return tuple(
-        ExistentialContext(tuple(known), _common_types(groups, witnesses))
-        for known, witnesses in merged
-    )
+            if _distinct(own, contexts):
+                merged.append([pattern])
+                contexts.append(own)
+    found = []
+    for number, known_patterns in enumerate(merged):
+        types, contexts[number] = _common_types(groups, contexts, number)
+        found.append(ExistentialContext(tuple(known_patterns), types))
+    return tuple(found)
 
 
 def _witnesses(group: Group, pattern: Pattern) -> NDArray[np.bool_]:
@@ -206,44 +212,41 @@ def _witnesses(group: Group, pattern: Pattern) -> NDArray[np.bool_]:
     return found
 
 
-def _separate(
-    earlier: Sequence[Sequence[NDArray[np.bool_]]], witnesses: Sequence[NDArray[np.bool_]]
-) -> bool:
-    """Whether in every transition some witness is not the only witness of an earlier context."""
-    for number, own in enumerate(witnesses):
-        taken = np.zeros_like(own)
-        for other in earlier:
-            single = other[number].sum(axis=1, keepdims=True) == 1
-            taken |= other[number] & single
-        if not (own & ~taken).any(axis=1).all():
-            return False
+def _distinct(own: _Witnesses, others: Sequence[_Witnesses]) -> bool:
+    """Whether in every transition each context can have an object for itself.
+
+    Hall's condition: any number of contexts have together at least as many witnesses. It is
+    known to hold among the others.
+    """
+    for size in range(len(others) + 1):
+        for chosen in itertools.combinations(others, size):
+            for found in zip(own, *chosen, strict=True):
+                together = np.logical_or.reduce(found)
+                if (together.sum(axis=1) <= size).any():
+                    return False
     return True
+
+
+def _without(contexts: Sequence[_Witnesses], number: int) -> list[_Witnesses]:
+    return [known for place, known in enumerate(contexts) if place != number]
 
 
 def _common_types(
-    groups: Sequence[Group], witnesses: Sequence[NDArray[np.bool_]]
-) -> frozenset[str]:
-    """Types of which, in every transition, some witness was; jointly if there are several."""
-    candidates = {t for g in groups for o in g.table.space.objects for t in o.types}
-    always = sorted(
-        (t for t in candidates if _always_of(groups, witnesses, (t,))),
-        key=lambda t: (_frequency(groups, t), t),
-    )
-    chosen: list[str] = []
-    for name in always:  # rarest first: they say most
-        if _always_of(groups, witnesses, (*chosen, name)):
-            chosen.append(name)
-    return frozenset(chosen)
-
-
-def _always_of(
-    groups: Sequence[Group], witnesses: Sequence[NDArray[np.bool_]], types: tuple[str, ...]
-) -> bool:
-    for group, found in zip(groups, witnesses, strict=True):
-        fits = np.array([o.has_types(types) for o in group.table.space.objects])
-        if not found[:, fits].any(axis=1).all():
-            return False
-    return True
+    groups: Sequence[Group], contexts: Sequence[_Witnesses], number: int
+) -> tuple[frozenset[str], _Witnesses]:
+    """Types of which, in every transition, some witness of a context was; and those witnesses."""
+    others = _without(contexts, number)
+    names = {t for g in groups for o in g.table.space.objects for t in o.types}
+    chosen: frozenset[str] = frozenset()
+    fitting = contexts[number]
+    for name in sorted(names, key=lambda t: (_frequency(groups, t), t)):  # rarest: they say most
+        fewer = [
+            found & np.array([name in o.types for o in group.table.space.objects])
+            for group, found in zip(groups, fitting, strict=True)
+        ]
+        if _distinct(fewer, others):
+            chosen, fitting = chosen | {name}, fewer
+    return chosen, fitting
 
 
 def _frequency(groups: Sequence[Group], type_name: str) -> int:
