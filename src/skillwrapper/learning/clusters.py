@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,8 +41,8 @@ class Group:
     @property
     def types(self) -> tuple[tuple[str, ...], ...]:
         """The types of the objects at the positions of the lifted change."""
-        by_name = {o.name: o.types for o in self.table.space.objects}
-        return tuple(by_name[name] for name in self.lifting.objects)
+        types = _types(self.table.space)
+        return tuple(types[name] for name in self.lifting.objects)
 
 
 @dataclass(frozen=True)
@@ -62,12 +62,16 @@ class Cluster:
         """Numbers of the transitions, in order of time."""
         return sorted(int(i) for g in self.groups for i in g.table.ids[g.rows])
 
+    @property
+    def is_no_op(self) -> bool:
+        """Whether none of the transitions changed anything visible (DESIGN.md D7)."""
+        return all(bool(g.table.unchanged[g.rows].all()) for g in self.groups)
+
 
 def cluster_successes(data: SkillData) -> tuple[Cluster, ...]:
     """Cluster the successes of a skill by their lifted changes, sorted by change.
 
-    A success of which the change of an atom of its arguments is unknown founds no cluster
-    (DESIGN.md D10).
+    A success of which the lifted change is not known founds no cluster (DESIGN.md D10).
     """
     found: dict[LiftedChange, list[Group]] = {}
     for table in data:
@@ -82,11 +86,12 @@ def group_by_change(table: SkillTable, mask: NDArray[np.bool_]) -> Iterator[Grou
     if len(rows) == 0:
         return
     change = table.change()[rows]
+    types = _types(table.space)
     for members in _equal_rows(table.which[rows], change):
         first = int(members[0])
         instance = table.instances[table.which[rows[first]]]
         literals = changed_literals(table.space, change[first])
-        yield Group(table, rows[members], lift_change(literals, instance.arguments))
+        yield Group(table, rows[members], lift_change(literals, instance.arguments, types))
 
 
 def changed_literals(space: AtomSpace, change: Labels) -> list[Literal]:
@@ -95,21 +100,42 @@ def changed_literals(space: AtomSpace, change: Labels) -> list[Literal]:
 
 
 def touches_unknown(table: SkillTable) -> NDArray[np.bool_]:
-    """Whether a transition (n,) has an undetermined atom that is nullary or of an argument."""
+    """Whether the lifted change of a transition (n,) is not known.
+
+    That is so if an undetermined atom is nullary, or of an argument, or of an object that the
+    known changes connect to an argument.
+    """
     undetermined = table.undetermined()
-    touched = np.zeros(len(table), dtype=bool)
     if not undetermined.any():
-        return touched
+        return np.zeros(len(table), dtype=bool)
+    terms = [frozenset(atom.terms) for atom in table.space.atoms]
+    touched = _of_arguments(table, undetermined, terms)
+    change = table.change()
+    for row in np.flatnonzero(undetermined.any(axis=1) & ~touched):
+        literals = changed_literals(table.space, change[row])
+        lifting = lift_change(literals, table.instances[table.which[row]].arguments)
+        touched[row] = any(
+            terms[i].intersection(lifting.objects) for i in undetermined[row].nonzero()[0]
+        )
+    return touched
+
+
+def _of_arguments(
+    table: SkillTable, marked: NDArray[np.bool_], terms: Sequence[frozenset[str]]
+) -> NDArray[np.bool_]:
+    """Whether a marked atom (n, atoms) of a transition (n,) is nullary or of an argument."""
+    found = np.zeros(len(table), dtype=bool)
     for number, instance in enumerate(table.instances):
-        arguments = set(instance.arguments)
         columns = [
-            i
-            for i, atom in enumerate(table.space.atoms)
-            if not atom.terms or arguments.intersection(atom.terms)
+            i for i, own in enumerate(terms) if not own or own.intersection(instance.arguments)
         ]
         mine = table.which == number
-        touched[mine] = undetermined[np.ix_(mine, columns)].any(axis=1)
-    return touched
+        found[mine] = marked[np.ix_(mine, columns)].any(axis=1)
+    return found
+
+
+def _types(space: AtomSpace) -> dict[str, tuple[str, ...]]:
+    return {o.name: o.types for o in space.objects}
 
 
 def _equal_rows(which: NDArray[np.intp], change: Labels) -> Iterator[NDArray[np.intp]]:

@@ -7,7 +7,7 @@ A lifted change names the skill's arguments by their positions 0 .. k-1 and ever
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from skillwrapper.symbols import Atom, Literal
@@ -34,21 +34,30 @@ class Lifting:
     unexplained: tuple[Atom, ...]
 
 
-def lift_change(changed: Iterable[Literal], arguments: Sequence[str]) -> Lifting:
+def lift_change(
+    changed: Iterable[Literal],
+    arguments: Sequence[str],
+    types: Mapping[str, tuple[str, ...]] | None = None,
+) -> Lifting:
     """Lift the literals that became true with respect to the arguments of a skill instance.
 
     An atom belongs to the change if it is nullary or connected to an argument through objects
     that it shares with other changed atoms (DESIGN.md D1).
+
+    Args:
+        changed: the literals that became true.
+        arguments: the arguments of the skill instance.
+        types: of the objects; context objects of one role are ordered by them, so that those
+            of one type get the same position in every transition.
     """
+    types = types or {}
     connected, rest = _split_connected(sorted(changed), arguments)
     context = sorted({t for literal in connected for t in literal.atom.terms} - set(arguments))
-    best = min(
-        (
-            (_rename(connected, (*arguments, *order)), order)
-            for order in _orders(context, connected, arguments)
-        ),
+    change, _, order = min(
+        (_rename(connected, (*arguments, *order)), [types.get(name, ()) for name in order], order)
+        for order in _orders(context, connected, arguments)
     )
-    return Lifting(best[0], (*arguments, *best[1]), tuple(x.atom for x in rest))
+    return Lifting(change, (*arguments, *order), tuple(x.atom for x in rest))
 
 
 def _split_connected(
