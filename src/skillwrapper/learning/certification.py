@@ -13,7 +13,7 @@ from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
 from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.predictions import Application, TablePrediction
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Labels
+from skillwrapper.symbols import FALSE, TRUE, Labels
 
 
 @dataclass(frozen=True)
@@ -75,14 +75,9 @@ def certify(fit: Fit) -> Certificate:
         for prediction in skill_fit.predictions:
             violations += _check_theorem(name, prediction)
             total += len(prediction.table)
-            undecided += int(_undecided(prediction).sum())
+            undecided += int(prediction.undecided.sum())
             no_ops += int((prediction.table.success & prediction.table.unchanged).sum())
     return Certificate(total, total - undecided, undecided, no_ops, tuple(violations))
-
-
-def _undecided(prediction: TablePrediction) -> NDArray[np.bool_]:
-    undecided: NDArray[np.bool_] = prediction.undetermined | (prediction.executable == UNKNOWN)
-    return undecided
 
 
 def _check_lemma(skill: str, predictions: Sequence[TablePrediction]) -> Iterator[Violation]:
@@ -108,7 +103,7 @@ def _lifted_starts(
 ) -> Iterator[tuple[int, LiftedState]]:
     table = prediction.table
     remembered: dict[tuple[int, bytes], LiftedState] = {}
-    for row in np.flatnonzero((table.success == success) & ~_undecided(prediction)):
+    for row in np.flatnonzero((table.success == success) & ~prediction.undecided):
         key = (int(table.which[row]), table.before[row].tobytes())
         if key not in remembered:
             instance = table.instances[table.which[row]]
@@ -120,10 +115,9 @@ def _lifted_changes(
     prediction: TablePrediction, *, success: bool
 ) -> Iterator[tuple[int, LiftedChange]]:
     table = prediction.table
-    for group in prediction.groups:
+    for group in prediction.successes if success else prediction.failures:
         for row in group.rows:
-            exempt = success and table.unchanged[row]
-            if table.success[row] == success and not exempt:
+            if not (success and table.unchanged[row]):
                 yield int(table.ids[row]), group.lifting.change
 
 
@@ -131,14 +125,14 @@ def _check_theorem(skill: str, prediction: TablePrediction) -> Iterator[Violatio
     """Each success has an applicable operator with its change; no failure has either."""
     table = prediction.table
     change = table.change()
-    undecided = _undecided(prediction)
     right = np.zeros(len(table), dtype=bool)
     similar = np.zeros(len(table), dtype=bool)
     for found in prediction.applications:
         same = _makes_change(found, prediction, change)
         right[found.rows] |= same & (found.applicability == TRUE)
-        similar[found.rows] |= same
-    for row in np.flatnonzero(~undecided):
+        if not found.learned.cluster.is_no_op:
+            similar[found.rows] |= same
+    for row in np.flatnonzero(~prediction.undecided):
         number = int(table.ids[row])
         if table.success[row] and not right[row]:
             reason = "no applicable operator makes the change"

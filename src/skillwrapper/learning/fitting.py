@@ -51,8 +51,7 @@ class SkillFit:
         if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.DETERMINISM):
             valid, decided = count_valid_executability(self.predictions)
         else:
-            clusters = [learned.cluster for learned in self.operators]
-            valid, decided = count_valid_effects(self.predictions, clusters)
+            valid, decided = count_valid_effects(self.predictions)
         return valid / decided if decided else 1.0
 
 
@@ -156,10 +155,6 @@ def fit_skill(
 ) -> SkillFit:
     """Learn one skill from its transitions."""
     operators, predictions = learn_deterministic_operators(domain, skill, data, predicates)
-    clusters = [learned.cluster for learned in operators]
     return SkillFit(
-        skill.name,
-        operators,
-        predictions,
-        find_inconsistencies(skill.name, predictions, clusters),
+        skill.name, operators, predictions, find_inconsistencies(skill.name, predictions)
     )

@@ -9,15 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-
-from skillwrapper.learning.clusters import Cluster
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
 from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
-from skillwrapper.symbols import TRUE, Atom
+from skillwrapper.symbols import TRUE, UNKNOWN, Atom
 from skillwrapper.world.skills import SkillInstance
 
 Witness = tuple[InconsistencyKind, str, int]
@@ -55,13 +52,13 @@ class Inconsistency:
 
 
 def find_inconsistencies(
-    skill: str, predictions: Sequence[TablePrediction], clusters: Sequence[Cluster]
+    skill: str, predictions: Sequence[TablePrediction]
 ) -> tuple[Inconsistency, ...]:
-    """All inconsistencies of a skill, one for every transition that is wrong, in order of time."""
+    """All inconsistencies of a skill, one for every transition that is wrong, by kind and table."""
     partners = _Partners(predictions)
     found = [
         *_preconditions(skill, predictions, partners),
-        *_effects(skill, predictions, clusters, partners),
+        *_effects(skill, predictions, partners),
         *_determinism(skill, predictions, partners),
         *_unexplained(skill, predictions),
     ]
@@ -81,18 +78,13 @@ class _Partners:
 
     def __init__(self, predictions: Sequence[TablePrediction]) -> None:
         self._instance: dict[int, SkillInstance] = {}
-        self._unchanged: set[int] = set()
         for prediction in predictions:
             table = prediction.table
             for number, which in zip(table.ids, table.which, strict=True):
                 self._instance[int(number)] = table.instances[which]
-            self._unchanged.update(int(i) for i in table.ids[table.unchanged])
 
-    def nearest(self, cluster: Cluster, to: int, *, changed: bool = False) -> int | None:
+    def nearest(self, members: Iterable[int], to: int) -> int:
         own = self._instance[to]
-        members = [i for i in cluster.ids if not (changed and i in self._unchanged)]
-        if not members:
-            return None
         return min(members, key=lambda i: (self._instance[i] != own, abs(i - to), i))
 
 
@@ -100,6 +92,7 @@ def _preconditions(
     skill: str, predictions: Sequence[TablePrediction], partners: _Partners
 ) -> Iterator[Inconsistency]:
     """Condition 1: a failure that some operator calls applicable."""
+    kind = InconsistencyKind.PRECONDITION
     for prediction in predictions:
         table = prediction.table
         blamed: dict[int, LearnedOperator] = {}
@@ -109,38 +102,26 @@ def _preconditions(
                     blamed.setdefault(int(row), found.learned)
         for row in sorted(blamed):
             culprit = int(table.ids[row])
-            success = partners.nearest(blamed[row].cluster, culprit)
-            identity = _identity(
-                skill, InconsistencyKind.PRECONDITION, prediction, row, blamed[row].cluster.change
-            )
-            yield Inconsistency(
-                InconsistencyKind.PRECONDITION, skill, success or 0, culprit, culprit, identity
-            )
+            cluster = blamed[row].cluster
+            success = partners.nearest(cluster.ids, culprit)
+            identity = _identity(skill, kind, prediction, row, cluster.change)
+            yield Inconsistency(kind, skill, success, culprit, culprit, identity)
 
 
 def _effects(
-    skill: str,
-    predictions: Sequence[TablePrediction],
-    clusters: Sequence[Cluster],
-    partners: _Partners,
+    skill: str, predictions: Sequence[TablePrediction], partners: _Partners
 ) -> Iterator[Inconsistency]:
     """Condition 2: a failure with the same lifted change as a success that changed something."""
-    by_change: dict[LiftedChange, Cluster] = {}
-    for cluster in clusters:
-        by_change.setdefault(cluster.change, cluster)
     kind = InconsistencyKind.EFFECT
+    by_change = _changes_of_successes(predictions)
     for prediction in predictions:
-        table = prediction.table
-        for group in prediction.groups:
-            same = by_change.get(group.lifting.change)
-            if table.success[group.rows[0]] or same is None:
-                continue
-            for row in group.rows:
-                culprit = int(table.ids[row])
-                success = partners.nearest(same, culprit, changed=True)
-                if success is not None:
-                    identity = _identity(skill, kind, prediction, int(row), same.change)
-                    yield Inconsistency(kind, skill, success, culprit, culprit, identity)
+        for group in prediction.failures:
+            change = group.lifting.change
+            for row in group.rows if change in by_change else ():
+                culprit = int(prediction.table.ids[row])
+                identity = _identity(skill, kind, prediction, int(row), change)
+                success = partners.nearest(by_change[change], culprit)
+                yield Inconsistency(kind, skill, success, culprit, culprit, identity)
 
 
 def _determinism(
@@ -156,7 +137,7 @@ def _determinism(
         for row in sorted(blamed):
             culprit = int(prediction.table.ids[row])
             cluster = blamed[row].cluster
-            other = partners.nearest(cluster, culprit)
+            other = partners.nearest(cluster.ids, culprit)
             identity = _identity(skill, kind, prediction, row, cluster.change)
             yield Inconsistency(kind, skill, culprit, other, culprit, identity)
 
@@ -165,8 +146,8 @@ def _unexplained(skill: str, predictions: Sequence[TablePrediction]) -> Iterator
     """D1: a success that changed an atom connected to no argument."""
     kind = InconsistencyKind.UNEXPLAINED
     for prediction in predictions:
-        for group in prediction.groups:
-            if not prediction.table.success[group.rows[0]] or not group.lifting.unexplained:
+        for group in prediction.successes:
+            if not group.lifting.unexplained:
                 continue
             names = tuple(sorted({(False, a.predicate, ()) for a in group.lifting.unexplained}))
             for row in group.rows:
@@ -180,6 +161,24 @@ def _unexplained(skill: str, predictions: Sequence[TablePrediction]) -> Iterator
                     _identity(skill, kind, prediction, int(row), names),
                     group.lifting.unexplained,
                 )
+
+
+def _changes_of_successes(
+    predictions: Sequence[TablePrediction],
+) -> dict[LiftedChange, list[int]]:
+    """The lifted changes that successes made, with the numbers of the transitions.
+
+    Not those of the clusters: from these, conditional effects are left out (D5). A success that
+    changed nothing visible does not count (D7).
+    """
+    found: dict[LiftedChange, list[int]] = {}
+    for prediction in predictions:
+        table = prediction.table
+        for group in prediction.successes:
+            visible = table.ids[group.rows[~table.unchanged[group.rows]]]
+            if len(visible):
+                found.setdefault(group.lifting.change, []).extend(map(int, visible))
+    return found
 
 
 def _identity(
@@ -199,29 +198,25 @@ def count_valid_executability(predictions: Sequence[TablePrediction]) -> tuple[i
     valid = decided = 0
     for prediction in predictions:
         executable = prediction.executable
-        known = executable != -1
+        known = executable != UNKNOWN
         decided += int(known.sum())
         valid += int(((executable == TRUE) == prediction.table.success)[known].sum())
     return valid, decided
 
 
-def count_valid_effects(
-    predictions: Sequence[TablePrediction], clusters: Sequence[Cluster]
-) -> tuple[int, int]:
+def count_valid_effects(predictions: Sequence[TablePrediction]) -> tuple[int, int]:
     """(valid, decided) transitions by their changes (DESIGN.md D6).
 
-    Valid is a success with the lifted change of a success cluster and nothing left unexplained,
-    and a failure with the lifted change of none.
+    Valid is a success of which nothing is left unexplained (its change is that of its cluster),
+    and a failure with the lifted change of no success.
     """
-    changes = {cluster.change for cluster in clusters}
+    changes = _changes_of_successes(predictions)
     valid = decided = 0
     for prediction in predictions:
-        for group in prediction.groups:
-            size = len(group.rows)
-            decided += size
-            explained = group.lifting.change in changes and not group.lifting.unexplained
-            if bool(np.all(prediction.table.success[group.rows])):
-                valid += size if explained else 0
-            else:
-                valid += size if group.lifting.change not in changes else 0
+        for group in prediction.successes:
+            decided += len(group.rows)
+            valid += 0 if group.lifting.unexplained else len(group.rows)
+        for group in prediction.failures:
+            decided += len(group.rows)
+            valid += 0 if group.lifting.change in changes else len(group.rows)
     return valid, decided

@@ -56,13 +56,14 @@ class TablePrediction:
         return verdict
 
     @cached_property
-    def groups(self) -> tuple[Group, ...]:
-        """All transitions whose change is determined, by skill instance, change and outcome."""
-        determined = ~self.undetermined
-        return (
-            *group_by_change(self.table, self.table.success & determined),
-            *group_by_change(self.table, ~self.table.success & determined),
-        )
+    def successes(self) -> tuple[Group, ...]:
+        """The successes whose change is determined, by skill instance and change."""
+        return tuple(group_by_change(self.table, self.table.success & ~self.undetermined))
+
+    @cached_property
+    def failures(self) -> tuple[Group, ...]:
+        """The failures whose change is determined, by skill instance and change."""
+        return tuple(group_by_change(self.table, ~self.table.success & ~self.undetermined))
 
     @cached_property
     def undetermined(self) -> NDArray[np.bool_]:
@@ -70,10 +71,16 @@ class TablePrediction:
         return touches_unknown(self.table)
 
     @cached_property
+    def undecided(self) -> NDArray[np.bool_]:
+        """Whether the change or the prediction hangs on an unknown label (n,), see D10."""
+        hanging: NDArray[np.bool_] = self.undetermined | (self.executable == UNKNOWN)
+        return hanging
+
+    @cached_property
     def unexplained(self) -> NDArray[np.bool_]:
         """Changed atoms that are connected to no argument (n, atoms)."""
         mask = np.zeros(self.table.before.shape, dtype=bool)
-        for group in self.groups:
+        for group in (*self.successes, *self.failures):
             columns = self.table.space.columns(group.lifting.unexplained)
             mask[np.ix_(group.rows, columns)] = True
         return mask
