@@ -29,6 +29,7 @@ def write_iteration(
 ) -> None:
     """Describe an iteration; ``summary.json``, written by the caller, marks it complete."""
     target = folder.iteration(number)
+    target.mkdir(parents=True, exist_ok=True)
     write_predicates(target / "predicates.yaml", fit.predicates)
     write_model(target / "model.json", fit.model)
     write_atomically(target / "operators.txt", describe_model(fit.model))
@@ -52,6 +53,7 @@ def write_truth_table(path: Path, fit: Fit, dataset: Dataset, truth: TruthTable)
 
 def write_learned_model(folder: RunFolder, model: AbstractModel) -> None:
     """The three files of ``model/``."""
+    folder.model.mkdir(exist_ok=True)
     write_predicates(folder.model / "predicates.yaml", model.predicates)
     write_model(folder.model / "model.json", model)
     write_atomically(folder.model / "domain.pddl", print_domain(model))

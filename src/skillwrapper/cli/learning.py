@@ -1,0 +1,70 @@
+"""``skillwrapper learn``: run Algorithm 1."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.progress import RunProgress
+from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.run.config import ModelSettings, RunConfig
+from skillwrapper.run.learn import learn as run_learning
+from skillwrapper.run.loop import LearningResult
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this group."""
+    app.command()(learn)
+
+
+def learn(
+    domain: Annotated[str, typer.Argument(help="A bundled domain, e.g. burger.")],
+    out: Annotated[Path, typer.Option(help="Folder of the run; an existing run is resumed.")],
+    seed: Annotated[int, typer.Option(min=0, help="Decides everything left to chance.")] = 0,
+    iterations: Annotated[int, typer.Option(min=1, help="How often to explore and learn.")] = 5,
+    budget: Annotated[int, typer.Option(min=1, help="Skills executed in an iteration.")] = 15,
+    candidates: Annotated[int, typer.Option(min=1, help="Sequences asked for at once.")] = 5,
+    threshold: Annotated[float, typer.Option(min=0.0, max=1.0, help="Least score h.")] = 0.6,
+    model: Annotated[str, typer.Option(help="embedded, openai:NAME or recorded:DIR.")] = "embedded",
+    noise: Annotated[str, typer.Option(help="Noise of the embedded model: none, gpt5.")] = "none",
+    as_json: JsonFlag = False,
+) -> None:
+    """Run skills, look, invent predicates and learn operators; resumes an existing run."""
+    config = RunConfig(
+        domain=domain,
+        seed=seed,
+        iterations=iterations,
+        exploration=ExplorationSettings(budget=budget, candidates=candidates),
+        learning=LearningSettings(threshold=threshold),
+        model=ModelSettings(name=model, noise=noise),
+    )
+    with RunProgress(messages()) as progress:
+        result = run_learning(config, out, progress)
+    if as_json:
+        print_json({"run": str(out), "model_calls": progress.calls, **result.to_json()})
+    else:
+        _print_result(out, result)
+
+
+def _print_result(out: Path, result: LearningResult) -> None:
+    console = results()
+    figures = result.to_json()
+    console.print(
+        f"[bold]{figures['predicates']} predicates, {figures['operators']} operators[/] from "
+        f"{figures['executions']} executions"
+    )
+    for predicate in result.fit.predicates:
+        console.print(f"  {predicate.signature}: {predicate.semantics}", markup=False)
+    broken = figures["lemma1_violations"] + figures["theorem1_violations"]
+    colour = "green" if broken == 0 and not figures["inconsistencies"] else "yellow"
+    console.print(
+        f"[{colour}]Lemma 1: {figures['lemma1_violations']} violations, Theorem 1: "
+        f"{figures['theorem1_violations']} violations, {figures['inconsistencies']} "
+        f"inconsistencies left[/]"
+    )
+    console.print(f"look at it with:  skillwrapper show {out}", markup=False)
+    console.print(f"check it with:    skillwrapper verify {out}", markup=False)

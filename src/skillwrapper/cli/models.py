@@ -1,0 +1,110 @@
+"""``skillwrapper show`` and ``skillwrapper verify``: what was learned, and whether it is true."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.verification import print_verification, run_verification
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.run.learned import LearnedRun
+from skillwrapper.symbols.describe import describe_operator
+from skillwrapper.symbols.pddl import print_domain
+
+RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this group."""
+    app.command()(show)
+    app.command()(verify)
+
+
+def show(
+    run: RunArgument,
+    pddl: Annotated[bool, typer.Option("--pddl", help="Print the PDDL domain only.")] = False,
+    as_json: JsonFlag = False,
+) -> None:
+    """Show predicates, operators and certificate of a run."""
+    learned = LearnedRun.read(RunFolder.open(run))
+    if as_json:
+        print_json(_describe(learned))
+    elif pddl:
+        typer.echo(print_domain(learned.model), nl=False)
+    else:
+        _print(learned)
+
+
+def verify(
+    run: RunArgument,
+    layout_seed: Annotated[
+        int | None, typer.Option(min=0, help="Layout of the pictures; default: one not seen.")
+    ] = None,
+    as_json: JsonFlag = False,
+) -> None:
+    """Compare the model with the domain in every reachable state, read from its picture."""
+    learned = LearnedRun.read(RunFolder.open(run))
+    verification = run_verification(learned, layout_seed, messages())
+    if as_json:
+        print_json(verification.to_json())
+    else:
+        print_verification(verification, results())
+
+
+def _describe(learned: LearnedRun) -> dict[str, object]:
+    model = learned.model
+    return {
+        "summary": learned.summary,
+        "predicates": [
+            {"name": p.name, "types": list(p.types), "semantics": p.semantics}
+            for p in model.predicates
+        ],
+        "operators": [describe_operator(o) for o in model.operators],
+        "certificate": learned.certificate,
+        "unresolved": learned.unresolved,
+    }
+
+
+def _print(learned: LearnedRun) -> None:
+    console = results()
+    console.print("[bold]predicates[/]")
+    for predicate in learned.model.predicates:
+        console.print(f"  {predicate.signature}", style="cyan", markup=False)
+        console.print(f"      {predicate.semantics}", markup=False)
+    console.print("\n[bold]operators[/]")
+    for operator in learned.model.operators:
+        for line in describe_operator(operator).splitlines():
+            console.print(f"  {line}", markup=False)
+        console.print("")
+    _print_certificate(learned)
+
+
+def _print_certificate(learned: LearnedRun) -> None:
+    console, certificate = results(), learned.certificate
+    table = Table.grid(padding=(0, 2))
+    table.add_row("transitions", str(certificate["transitions"]))
+    table.add_row("decided", str(certificate["decided"]))
+    table.add_row("undecided (unknown labels)", str(certificate["undecided"]))
+    table.add_row("successes that changed nothing", str(certificate["no_ops"]))
+    table.add_row("violations of Lemma 1", str(certificate["lemma1_violations"]))
+    table.add_row("violations of Theorem 1", str(certificate["theorem1_violations"]))
+    table.add_row("inconsistencies left", str(learned.summary["inconsistencies"]))
+    console.print("[bold]certificate[/] (on the recorded data)")
+    console.print(table)
+    for violation in certificate["violations"]:
+        console.print(
+            f"  {violation['statement']}: {violation['skill']}, transition "
+            f"{violation['transition']}: {violation['reason']}",
+            markup=False,
+        )
+    for cause in learned.unresolved:
+        who = " / ".join(w["instance"] for w in cause["witnesses"])
+        console.print(f"  unresolved ({cause['kind']}): {who}", markup=False)
+        for witness in cause["witnesses"]:
+            for sha in witness["before"]:
+                path = learned.folder.path / "images" / f"{sha}.png"
+                console.print(f"    {witness['instance']}: {path}", markup=False)

@@ -1,0 +1,46 @@
+"""A whole run from a configuration: folder, environment, models, loop."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from skillwrapper.domains.registry import domain_file, make_environment
+from skillwrapper.run.assistants import Session, open_assistant
+from skillwrapper.run.config import RunConfig
+from skillwrapper.run.events import RunEvent
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.run.loop import LearningResult, LearningRun
+
+
+class Onlooker:
+    """Told of what happens in a run; does nothing, so that others need not do everything."""
+
+    def opened(self, session: Session) -> None:
+        """The models are ready; the session tells how often they were asked."""
+
+    def happened(self, event: RunEvent) -> None:
+        """Something happened."""
+
+
+def learn(config: RunConfig, out: Path, onlooker: Onlooker | None = None) -> LearningResult:
+    """Run Algorithm 1 in a folder, or go on with a run that is there.
+
+    Raises:
+        UserError: if the configuration or the folder cannot be used.
+        ProviderError: if a model does not answer.
+        RobotError: if the environment fails.
+        LimitReachedError: if a limit of the user's is reached; the run can be resumed.
+    """
+    onlooker = onlooker or Onlooker()
+    environment = make_environment(config.domain)
+    folder = RunFolder.create_or_resume(out, config, domain_file(config.domain))
+    with open_assistant(config, folder) as session:
+
+        def watch(event: RunEvent) -> None:
+            session.note(event)
+            onlooker.happened(event)
+
+        onlooker.opened(session)
+        result = LearningRun(folder, config, environment, session.assistant, watch).run()
+    environment.close()
+    return result

@@ -1,0 +1,55 @@
+"""Reading back what a run has learned."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from skillwrapper.errors import RunFolderError
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.symbols import AbstractModel
+from skillwrapper.symbols.files import read_model
+from skillwrapper.world.domain import load_domain
+
+
+@dataclass(frozen=True)
+class LearnedRun:
+    """The result of a finished run.
+
+    Attributes:
+        folder: where it stands.
+        model: predicates and operators.
+        certificate: Lemma 1 and Theorem 1, as plain data.
+        unresolved: inconsistencies that are left, as plain data.
+        summary: figures, as plain data.
+    """
+
+    folder: RunFolder
+    model: AbstractModel
+    certificate: dict[str, Any]
+    unresolved: list[dict[str, Any]]
+    summary: dict[str, Any]
+
+    @classmethod
+    def read(cls, folder: RunFolder) -> LearnedRun:
+        """Read the latest state of a run.
+
+        Raises:
+            RunFolderError: if no iteration is finished yet.
+        """
+        last = folder.finished_iterations()
+        if last == 0:
+            raise RunFolderError(
+                f"{folder.path}: no iteration is finished yet; "
+                "run the same learn command again to go on"
+            )
+        target = folder.iteration(last)
+        domain = load_domain(folder.path / "domain.yaml")
+        return cls(
+            folder,
+            read_model(target / "model.json", domain),
+            json.loads((target / "certificate.json").read_text(encoding="utf-8")),
+            json.loads((target / "unresolved.json").read_text(encoding="utf-8")),
+            json.loads((target / "summary.json").read_text(encoding="utf-8")),
+        )
