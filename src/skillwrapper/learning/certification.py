@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
 from skillwrapper.learning.lifting import LiftedChange
-from skillwrapper.learning.predictions import Application, TablePrediction
-from skillwrapper.symbols import FALSE, TRUE, Labels
+from skillwrapper.learning.predictions import TablePrediction
+from skillwrapper.symbols import FALSE
 
 
 @dataclass(frozen=True)
@@ -124,17 +124,10 @@ def _lifted_changes(
 def _check_theorem(skill: str, prediction: TablePrediction) -> Iterator[Violation]:
     """Each success has an applicable operator with its change; no failure has either."""
     table = prediction.table
-    change = table.change()
-    right = np.zeros(len(table), dtype=bool)
-    similar = np.zeros(len(table), dtype=bool)
-    for found in prediction.applications:
-        same = _makes_change(found, prediction, change)
-        right[found.rows] |= same & (found.applicability == TRUE)
-        if not found.learned.cluster.is_no_op:
-            similar[found.rows] |= same
+    similar = _similar(prediction)
     for row in np.flatnonzero(~prediction.undecided):
         number = int(table.ids[row])
-        if table.success[row] and not right[row]:
+        if table.success[row] and not prediction.accounted[row]:
             reason = "no applicable operator makes the change"
             yield Violation("theorem1", skill, number, None, reason)
         if not table.success[row] and prediction.executable[row] != FALSE:
@@ -144,12 +137,17 @@ def _check_theorem(skill: str, prediction: TablePrediction) -> Iterator[Violatio
             yield Violation("theorem1", skill, number, None, reason)
 
 
-def _makes_change(
-    found: Application, prediction: TablePrediction, change: Labels
-) -> NDArray[np.bool_]:
-    """Whether the whole known change of the transitions is the operator's effect (rows,)."""
-    table = prediction.table
-    effect = found.ground.effects(table.before[found.rows])
-    known = ~table.undetermined()[found.rows]
-    same: NDArray[np.bool_] = (np.where(known, effect, 0) == change[found.rows]).all(axis=1)
-    return same
+def _similar(prediction: TablePrediction) -> NDArray[np.bool_]:
+    """Whether some operator, applicable or not, would make the change of a transition (n,).
+
+    Not counted are operators learned from no-ops (D7), and conditional effects that come to
+    nothing because no object meets their condition.
+    """
+    similar = np.zeros(len(prediction.table), dtype=bool)
+    for found in prediction.applications:
+        if not found.learned.cluster.is_no_op:
+            same = prediction.makes_change(found)
+            if found.learned.operator.conditional_effects:
+                same &= prediction.table.change()[found.rows].any(axis=1)
+            similar[found.rows] |= same
+    return similar

@@ -14,7 +14,7 @@ from skillwrapper.symbols import AtomSpace, Labels, Literal
 from skillwrapper.world.skills import SkillInstance
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Group:
     """Transitions of one skill instance that made the same ground change.
 
@@ -45,7 +45,7 @@ class Group:
         return tuple(types[name] for name in self.lifting.objects)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cluster:
     """Groups with the same lifted change; one operator is learned from each cluster.
 

@@ -1,22 +1,36 @@
 """Conditional effects: changes that range over a set of objects (DESIGN.md D5).
 
 A tray that is moved takes along whatever lies on it. As plain effects that is another operator
-for every number of things; as a conditional effect it is one: for every other object that lies on
+for every number of things; as conditional effects it is one: for every other object that lies on
 the tray, its place changes.
+
+The core of a change is what is left of it without the objects that a change ranges over. One
+operator is learned from all successes with the same core; what happens to any other object must
+then follow from the relations in which it stood to the core's objects.
 """
 
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from skillwrapper.learning.data import SkillData, SkillTable
-from skillwrapper.learning.operators import LearnedOperator, learn_operators
+from skillwrapper.learning.clusters import Cluster, Group, changed_literals
+from skillwrapper.learning.lifting import LiftedChange, lift_change
+from skillwrapper.learning.operators import LearnedOperator, operator_of
 from skillwrapper.learning.preconditions import OTHER, Pattern
-from skillwrapper.symbols import FALSE, TRUE, Atom, ConditionalEffect, Literal, Predicate, Variable
+from skillwrapper.symbols import (
+    TRUE,
+    Atom,
+    ConditionalEffect,
+    Literal,
+    Operator,
+    Predicate,
+    Variable,
+)
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -49,119 +63,149 @@ class _Rule:
 
 
 def learn_with_conditional_effects(
-    domain: Domain, skill: Skill, data: SkillData, predicates: Sequence[Predicate]
+    domain: Domain, skill: Skill, clusters: Sequence[Cluster], predicates: Sequence[Predicate]
 ) -> tuple[LearnedOperator, ...]:
-    """Operators with conditional effects; none if no change ranges over a set."""
-    patterns = tuple(_patterns(predicates, len(skill.parameters)))
-    rules = [
-        rule
-        for change in _ranging_changes(data, patterns)
-        if (rule := _find_rule(data, patterns, change)) is not None
-    ]
-    if not rules:
+    """Operators with conditional effects; none if no change ranges over a set by a rule.
+
+    Args:
+        domain: for the type hierarchy.
+        skill: the skill.
+        clusters: its successes.
+        predicates: the vocabulary without tautologies.
+    """
+    groups = [group for cluster in clusters for group in cluster.groups]
+    ranging = _ranging_changes(groups)
+    if not ranging:
         return ()
-    masked = tuple(_without(table, [rule.change for rule in rules]) for table in data)
-    effects = frozenset(_effect(domain, skill, rule) for rule in rules)
-    return tuple(
-        replace(o, operator=replace(o.operator, conditional_effects=effects))
-        for o in learn_operators(domain, skill, masked, predicates)
-    )
+    learned = []
+    for number, cluster in enumerate(_cluster_by_core(groups, ranging), start=1):
+        rules = _find_rules(cluster, predicates)
+        if rules is None:
+            return ()
+        plain = operator_of(domain, skill, cluster, predicates, f"{skill.name}_{number}")
+        effects = frozenset(_effect(domain, plain.operator, rule) for rule in rules)
+        operator = replace(plain.operator, conditional_effects=effects)
+        learned.append(replace(plain, operator=operator))
+    return tuple(learned)
 
 
-def _patterns(predicates: Sequence[Predicate], arity: int) -> Iterator[Pattern]:
+def _changed(group: Group) -> list[Literal]:
+    """The literals that became true in the transitions of a group."""
+    return changed_literals(group.table.space, group.table.change()[group.rows[0]])
+
+
+def _signed_pattern(literal: Literal, objects: Sequence[str]) -> tuple[SignedPattern, str] | None:
+    """A changed literal as a pattern over objects and the one other object in it, if it is one."""
+    others = [t for t in literal.atom.terms if t not in objects]
+    if len(others) != 1:
+        return None
+    terms = tuple(OTHER if t not in objects else objects.index(t) for t in literal.atom.terms)
+    return (literal.positive, (literal.atom.predicate, terms)), others[0]
+
+
+def _ranging_changes(groups: Sequence[Group]) -> frozenset[SignedPattern]:
+    """Changes around the arguments that some transition made with several other objects."""
+    found: set[SignedPattern] = set()
+    for group in groups:
+        patterns = (_signed_pattern(x, group.instance.arguments) for x in _changed(group))
+        counts = Counter(p[0] for p in patterns if p is not None)
+        found.update(change for change, number in counts.items() if number > 1)
+    return frozenset(found)
+
+
+def _cluster_by_core(
+    groups: Sequence[Group], ranging: frozenset[SignedPattern]
+) -> tuple[Cluster, ...]:
+    """The groups by the part of their change without objects that made a ranging change."""
+    found: dict[LiftedChange, list[Group]] = {}
+    for group in groups:
+        arguments = group.instance.arguments
+        changed = _changed(group)
+        patterns = (_signed_pattern(literal, arguments) for literal in changed)
+        moved = {p[1] for p in patterns if p is not None and p[0] in ranging}
+        core = [literal for literal in changed if not moved.intersection(literal.atom.terms)]
+        types = {o.name: o.types for o in group.table.space.objects}
+        lifting = lift_change(core, arguments, types)
+        found.setdefault(lifting.change, []).append(replace(group, lifting=lifting))
+    return tuple(Cluster(change, tuple(found[change])) for change in sorted(found))
+
+
+def _find_rules(cluster: Cluster, predicates: Sequence[Predicate]) -> tuple[_Rule, ...] | None:
+    """Rules for all that happened to objects outside the core; None if there are none."""
+    changes: set[SignedPattern] = set()
+    for group in cluster.groups:
+        for literal in _changed(group):
+            if not set(literal.atom.terms) <= set(group.lifting.objects):
+                pattern = _signed_pattern(literal, group.lifting.objects)
+                if pattern is None:
+                    return None
+                changes.add(pattern[0])
+    size = len(cluster.groups[0].lifting.objects)
+    patterns = tuple(_patterns(predicates, size))
+    rules = [_find_rule(cluster, patterns, change) for change in sorted(changes)]
+    found = tuple(rule for rule in rules if rule is not None)
+    return found if len(found) == len(rules) else None
+
+
+def _patterns(predicates: Sequence[Predicate], size: int) -> Iterator[Pattern]:
     for predicate in predicates:
         for place in range(predicate.arity):
-            for terms in itertools.permutations(range(arity), predicate.arity - 1):
+            for terms in itertools.permutations(range(size), predicate.arity - 1):
                 yield predicate.name, (*terms[:place], OTHER, *terms[place:])
 
 
-def _ranging_changes(data: SkillData, patterns: Sequence[Pattern]) -> list[SignedPattern]:
-    """Changes that some transition made with several other objects."""
-    found: set[SignedPattern] = set()
-    for table in data:
-        change = table.change()
-        for number in range(len(table.instances)):
-            rows = np.flatnonzero(table.success & (table.which == number))
-            if not len(rows):
-                continue
-            columns: dict[Pattern, list[int]] = {}
-            for pattern, _, column in _groundings(table, int(rows[0]), patterns):
-                columns.setdefault(pattern, []).append(column)
-            for pattern, own in columns.items():
-                made = change[rows][:, own]
-                for became, sign in ((True, 1), (False, -1)):
-                    if ((made == sign).sum(axis=1) > 1).any():
-                        found.add((became, pattern))
-    return sorted(found)
-
-
-def _find_rule(data: SkillData, patterns: Sequence[Pattern], change: SignedPattern) -> _Rule | None:
+def _find_rule(
+    cluster: Cluster, patterns: Sequence[Pattern], change: SignedPattern
+) -> _Rule | None:
     """What all objects that changed had in common, if no other object had all of it."""
-    cases = [case for table in data for case in _cases(table, patterns, change)]
+    cases = [case for group in cluster.groups for case in _cases(group, patterns, change)]
     changed = [case for case in cases if case.changed]
+    if not changed:
+        return None
     always = frozenset.intersection(*(case.held for case in changed))
     never = frozenset(patterns) - frozenset.union(*(case.held for case in changed))
     types = frozenset.intersection(*(case.types for case in changed))
-    for case in cases:
-        fits = types <= case.types and always <= case.held and not never & case.held
-        if fits and not case.changed:
-            return None
-    needed = {(p, True) for p in always} | {
-        (p, False)
-        for p in never
-        if any(p in case.held and types <= case.types for case in cases if not case.changed)
-    }
+    unchanged = [case for case in cases if not case.changed and types <= case.types]
+    if any(always <= case.held and not never & case.held for case in unchanged):
+        return None
+    needed = {(p, True) for p in always}
+    needed |= {(p, False) for p in never if any(p in case.held for case in unchanged)}
     return _Rule(change, tuple(sorted(needed)), types)
 
 
-def _cases(
-    table: SkillTable, patterns: Sequence[Pattern], change: SignedPattern
-) -> Iterator[_Case]:
+def _cases(group: Group, patterns: Sequence[Pattern], change: SignedPattern) -> Iterator[_Case]:
+    """Every object that is no argument, in every different state before the group's transitions.
+
+    An object with an unknown label is no evidence (DESIGN.md D10).
+    """
     became, wanted = change
-    changes = table.change()
-    for row in np.flatnonzero(table.success):
-        held: dict[int, set[Pattern]] = {}
-        changed: dict[int, bool] = {}
-        for pattern, other, column in _groundings(table, int(row), patterns):
-            if table.before[row, column] == TRUE:
-                held.setdefault(other, set()).add(pattern)
-            if pattern == wanted:
-                changed[other] = changes[row, column] == (1 if became else -1)
-        for other, did in changed.items():
-            types = frozenset(table.space.objects[other].types)
-            yield _Case(frozenset(held.get(other, ())), types, did)
-
-
-def _groundings(
-    table: SkillTable, row: int, patterns: Sequence[Pattern]
-) -> Iterator[tuple[Pattern, int, int]]:
-    """(pattern, index of the other object, column) around a transition."""
-    arguments = table.instances[table.which[row]].arguments
-    for other, thing in enumerate(table.space.objects):
-        if thing.name in arguments:
+    signed = group.table.change()[group.rows[0]]
+    undetermined = group.table.undetermined()[group.rows]
+    for other in group.table.space.objects:
+        columns = _columns(group, patterns, other.name)
+        if other.name in group.instance.arguments or wanted not in columns:
             continue
-        for name, terms in patterns:
-            atom = Atom(name, tuple(thing.name if t == OTHER else arguments[t] for t in terms))
-            column = table.space.column.get(atom)
-            if column is not None:
-                yield (name, terms), other, column
+        own = list(columns.values())
+        states = group.before[:, own][~undetermined[:, own].any(axis=1)]
+        did = bool(signed[columns[wanted]] == (1 if became else -1))
+        for state in np.unique(states, axis=0):
+            held = (p for p, label in zip(columns, state, strict=True) if label == TRUE)
+            yield _Case(frozenset(held), frozenset(other.types), did)
 
 
-def _without(table: SkillTable, changes: Sequence[SignedPattern]) -> SkillTable:
-    """The table as if these changes had not happened."""
-    after = table.after.copy()
-    happened = table.change()
-    patterns = [pattern for _, pattern in changes]
-    for row in np.flatnonzero(table.success):
-        for pattern, _, column in _groundings(table, int(row), patterns):
-            became = happened[row, column] > 0
-            if happened[row, column] and (bool(became), pattern) in changes:
-                after[row, column] = FALSE if became else TRUE
-    return replace(table, after=after)
+def _columns(group: Group, patterns: Sequence[Pattern], other: str) -> dict[Pattern, int]:
+    """The columns of the patterns that have a grounding with an object."""
+    objects, space = group.lifting.objects, group.table.space
+    found = {}
+    for name, terms in patterns:
+        atom = Atom(name, tuple(other if t == OTHER else objects[t] for t in terms))
+        if atom in space.column:
+            found[name, terms] = space.column[atom]
+    return found
 
 
-def _effect(domain: Domain, skill: Skill, rule: _Rule) -> ConditionalEffect:
-    names = [f"?{p.name}" for p in skill.parameters]
+def _effect(domain: Domain, operator: Operator, rule: _Rule) -> ConditionalEffect:
+    names = [v.name for v in operator.parameters]
 
     def atom(pattern: Pattern) -> Atom:
         return Atom(pattern[0], tuple(EACH if t == OTHER else names[t] for t in pattern[1]))

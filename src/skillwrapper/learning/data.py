@@ -11,9 +11,9 @@ from skillwrapper.symbols import UNKNOWN, AtomSpace, Labels
 from skillwrapper.world.skills import SkillInstance
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SkillTable:
-    """The transitions of one skill in one scene.
+    """The transitions of one skill in one scene; compared by identity.
 
     Attributes:
         space: the ground atoms over the scene's objects.

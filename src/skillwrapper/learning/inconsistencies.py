@@ -143,14 +143,14 @@ def _determinism(
 
 
 def _unexplained(skill: str, predictions: Sequence[TablePrediction]) -> Iterator[Inconsistency]:
-    """D1: a success that changed an atom connected to no argument."""
+    """D1: a success that changed an atom connected to no argument, and no operator says so."""
     kind = InconsistencyKind.UNEXPLAINED
     for prediction in predictions:
         for group in prediction.successes:
             if not group.lifting.unexplained:
                 continue
             names = tuple(sorted({(False, a.predicate, ()) for a in group.lifting.unexplained}))
-            for row in group.rows:
+            for row in group.rows[~prediction.accounted[group.rows]]:
                 culprit = int(prediction.table.ids[row])
                 yield Inconsistency(
                     kind,
@@ -207,15 +207,16 @@ def count_valid_executability(predictions: Sequence[TablePrediction]) -> tuple[i
 def count_valid_effects(predictions: Sequence[TablePrediction]) -> tuple[int, int]:
     """(valid, decided) transitions by their changes (DESIGN.md D6).
 
-    Valid is a success of which nothing is left unexplained (its change is that of its cluster),
-    and a failure with the lifted change of no success.
+    Valid is a success of which nothing is left unexplained, and a failure with the lifted change
+    of no success.
     """
     changes = _changes_of_successes(predictions)
     valid = decided = 0
     for prediction in predictions:
         for group in prediction.successes:
             decided += len(group.rows)
-            valid += 0 if group.lifting.unexplained else len(group.rows)
+            unexplained = bool(group.lifting.unexplained)
+            valid += int(prediction.accounted[group.rows].sum()) if unexplained else len(group.rows)
         for group in prediction.failures:
             decided += len(group.rows)
             valid += 0 if group.lifting.change in changes else len(group.rows)

@@ -19,7 +19,7 @@ from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LearnedOperator:
     """An operator with the cluster it was learned from.
 

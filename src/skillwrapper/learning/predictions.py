@@ -15,7 +15,7 @@ from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, GroundOperator, Labels, ground_operator
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Application:
     """A ground operator and the transitions of its skill instance.
 
@@ -32,7 +32,7 @@ class Application:
     applicability: Labels
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TablePrediction:
     """What the operators of a skill say of one table of its transitions.
 
@@ -75,6 +75,26 @@ class TablePrediction:
         """Whether the change or the prediction hangs on an unknown label (n,), see D10."""
         hanging: NDArray[np.bool_] = self.undetermined | (self.executable == UNKNOWN)
         return hanging
+
+    @cached_property
+    def accounted(self) -> NDArray[np.bool_]:
+        """Whether some operator surely applies and makes the whole known change (n,)."""
+        accounted = np.zeros(len(self.table), dtype=bool)
+        for found in self.applications:
+            accounted[found.rows] |= self.makes_change(found) & (found.applicability == TRUE)
+        return accounted
+
+    def makes_change(self, application: Application) -> NDArray[np.bool_]:
+        """Whether the whole known change of the transitions is the operator's effect (rows,)."""
+        rows = application.rows
+        effect = application.ground.effects(self.table.before[rows])
+        known = ~self.table.undetermined()[rows]
+        same: NDArray[np.bool_] = (np.where(known, effect, 0) == self._change[rows]).all(axis=1)
+        return same
+
+    @cached_property
+    def _change(self) -> Labels:
+        return self.table.change()
 
     @cached_property
     def unexplained(self) -> NDArray[np.bool_]:

@@ -1,20 +1,23 @@
 """Remedies for operators that predict more than one change (DESIGN.md D5), before invention.
 
 In this order: split a cluster by the types of its objects; add literals between context objects,
-which tells bindings apart; conditional effects where a change ranges over a set. A remedy is used
-only if it removes every wrong prediction of the operator that it replaces.
+which tells bindings apart; conditional effects where a change ranges over a set. The first two are
+used only if they remove every wrong prediction of the operator that they replace, conditional
+effects only if they predict more transitions rightly, or as many with fewer operators.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from skillwrapper.learning.clusters import Cluster, Group
 from skillwrapper.learning.conditional_effects import learn_with_conditional_effects
 from skillwrapper.learning.data import SkillData
 from skillwrapper.learning.operators import LearnedOperator, learn_operators, operator_of
 from skillwrapper.learning.predictions import TablePrediction, predict
-from skillwrapper.symbols import Predicate
+from skillwrapper.symbols import TRUE, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -26,19 +29,17 @@ def learn_deterministic_operators(
     plain = learn_operators(domain, skill, data, predicates)
     predictions = predict(data, plain)
     mistaken = _mistaken_operators(predictions)
-    chosen = plain
-    if mistaken:
-        chosen = tuple(
-            replacement
-            for o in plain
-            for replacement in (
-                _mend(domain, skill, data, predicates, o) if o.operator.name in mistaken else (o,)
-            )
-        )
-    ranging = learn_with_conditional_effects(domain, skill, data, predicates)
+    chosen: list[LearnedOperator] = []
+    for learned in plain:
+        if learned.operator.name in mistaken:
+            chosen += _mend(domain, skill, data, predicates, learned)
+        else:
+            chosen.append(learned)
+    clusters = [o.cluster for o in plain]
+    ranging = learn_with_conditional_effects(domain, skill, clusters, predicates)
     if ranging and _cost(data, ranging) < _cost(data, chosen):
-        chosen = ranging
-    if chosen == plain:
+        chosen = list(ranging)
+    if chosen == list(plain):
         return plain, predictions
     named = tuple(
         LearnedOperator(o.operator.renamed(f"{skill.name}_{number}"), o.cluster)
@@ -107,5 +108,14 @@ def _mistakes(data: SkillData, operators: Sequence[LearnedOperator]) -> int:
     )
 
 
-def _cost(data: SkillData, operators: Sequence[LearnedOperator]) -> int:
-    return _mistakes(data, operators) + len(operators)
+def _cost(data: SkillData, operators: Sequence[LearnedOperator]) -> tuple[int, int]:
+    """Smaller is better: transitions that are predicted wrongly, then the number of operators."""
+    wrong = 0
+    for prediction in predict(data, operators):
+        success = prediction.table.success
+        mistaken = np.where(success, ~prediction.accounted, prediction.executable == TRUE)
+        mistaken &= ~prediction.undecided
+        for application in prediction.applications:
+            mistaken[prediction.mispredicted(application)] = True
+        wrong += int(mistaken.sum())
+    return wrong, len(operators)

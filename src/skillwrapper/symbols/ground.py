@@ -201,7 +201,7 @@ def _bind(operator: Operator, names: tuple[str, ...], space: AtomSpace) -> Groun
         tuple(
             effect
             for lifted in sorted(operator.conditional_effects)
-            for effect in _bind_conditional(lifted, binding, space)
+            for effect in _bind_conditional(lifted, binding, names[: operator.arity], space)
         ),
     )
 
@@ -219,10 +219,10 @@ def absent_atoms(absence: Absence, binding: dict[str, str], space: AtomSpace) ->
 
 
 def _bind_conditional(
-    effect: ConditionalEffect, binding: dict[str, str], space: AtomSpace
+    effect: ConditionalEffect, binding: dict[str, str], arguments: Sequence[str], space: AtomSpace
 ) -> Iterator[GroundConditionalEffect]:
     for other in space.objects:
-        if other.name in binding.values() or not other.has_types(effect.quantified.types):
+        if other.name in arguments or not other.has_types(effect.quantified.types):
             continue
         extended = {**binding, effect.quantified.name: other.name}
         condition = [literal.substitute(extended) for literal in effect.condition]

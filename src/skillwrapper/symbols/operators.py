@@ -46,7 +46,8 @@ class ConditionalEffect:
     """A change of every other object that meets a condition (DESIGN.md D5).
 
     Attributes:
-        quantified: the variable that ranges over all objects that are no operator parameters.
+        quantified: the variable that ranges over all objects but the skill's own arguments; what
+            stands for a context parameter is no exception.
         condition: literals that the object must meet before.
         effect: what then becomes true (positive) or false (negative).
     """
@@ -75,7 +76,7 @@ class Operator:
         absences: universal absences.
         add_effects: atoms over the parameters that become true.
         delete_effects: atoms over the parameters that become false.
-        conditional_effects: changes of objects that are no parameters.
+        conditional_effects: changes of every object that meets a condition.
 
     Raises:
         SymbolError: if a term is no parameter, or an atom is both added and deleted.

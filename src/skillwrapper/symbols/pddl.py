@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from skillwrapper.symbols.model import AbstractModel
-from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator
+from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator, Variable
 from skillwrapper.symbols.pddl_names import PlannerNames, unique_names, variable_names
 from skillwrapper.symbols.pddl_types import ROOT, PddlTypes
 from skillwrapper.symbols.predicates import Atom, Literal, Predicate
@@ -180,7 +180,9 @@ class _Printer:
         extended = variable_names([*names, *absence.quantified])
         exceptions = []
         for term in absence.quantified:
-            exceptions += self._same_as_parameter(extended[term], [types[term]], operator, names)
+            exceptions += self._same_as_one(
+                extended[term], [types[term]], operator.parameters, names
+            )
             for static in self.types.static_of([types[term]]):
                 exceptions.append(f"(not ({self.names.types[static]} {extended[term]}))")
         atom = f"(not {self._atom(absence.atom, extended)})"
@@ -195,7 +197,8 @@ class _Printer:
         quantified = effect.quantified
         extended = variable_names([*names, quantified.name])
         term = extended[quantified.name]
-        same = self._same_as_parameter(term, quantified.types, operator, names)
+        arguments = operator.parameters[: operator.arity]
+        same = self._same_as_one(term, quantified.types, arguments, names)
         condition = [
             f"({self.names.types[s]} {term})" for s in self.types.static_of(quantified.types)
         ]
@@ -205,14 +208,14 @@ class _Printer:
         body = f"(when {_conjunction(condition)} {changed})" if condition else changed
         return f"(forall ({self._typed(term, quantified.types)}) {body})"
 
-    def _same_as_parameter(
-        self, term: str, types: Iterable[str], operator: Operator, names: dict[str, str]
+    def _same_as_one(
+        self, term: str, types: Iterable[str], parameters: Iterable[Variable], names: dict[str, str]
     ) -> list[str]:
-        """Equalities with the parameters that can be the same object at all."""
+        """Equalities with those of the parameters that can be the same object at all."""
         wanted = tuple(types)
         return [
             f"(= {term} {names[v.name]})"
-            for v in operator.parameters
+            for v in parameters
             if self.types.may_overlap(wanted, v.types)
         ]
 
