@@ -57,6 +57,20 @@ class StateSpace:
             steps.append(self.instances[instance])
         return tuple(reversed(steps))
 
+    def distances_from(self, start: int) -> NDArray[np.intp]:
+        """Number of skills on a shortest path from a state to every state (states,).
+
+        Returns:
+            -1 for a state that cannot be reached, which the search of all paths has proven.
+        """
+        distances = np.full(len(self.states), -1, dtype=np.intp)
+        frontier, steps = np.array([start], dtype=np.intp), 0
+        while len(frontier):
+            distances[frontier] = steps
+            reached = np.unique(self.following[frontier][self.success[frontier]])
+            frontier, steps = reached[distances[reached] < 0], steps + 1
+        return distances
+
     @cached_property
     def distance(self) -> NDArray[np.intp]:
         """Number of skills on a shortest path from the start to every state (states,)."""

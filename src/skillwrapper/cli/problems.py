@@ -1,0 +1,62 @@
+"""``skillwrapper problems``: make test problems of a domain."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.domains.registry import make_environment
+from skillwrapper.errors import ConfigurationError
+from skillwrapper.evaluation.problem_generator import ProblemGenerator
+from skillwrapper.evaluation.problems import ProblemSet
+from skillwrapper.evaluation.references import reference_of
+from skillwrapper.world.environment import EnumerableEnvironment
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this group."""
+    app.command()(problems)
+
+
+def problems(
+    domain: Annotated[str, typer.Argument(help="A bundled domain, e.g. burger.")],
+    out: Annotated[Path | None, typer.Option(help="The YAML file to write.")] = None,
+    easy: Annotated[int, typer.Option(min=0, help="Optimal solutions of 1 to 7 skills.")] = 20,
+    hard: Annotated[int, typer.Option(min=0, help="Optimal solutions of 8 to 15 skills.")] = 20,
+    impossible: Annotated[int, typer.Option(min=0, help="Proven to have no solution.")] = 10,
+    seed: Annotated[int, typer.Option(min=0, help="Decides every choice.")] = 0,
+    as_json: JsonFlag = False,
+) -> None:
+    """Make test problems by exact search; the same seed makes the same ones."""
+    environment = make_environment(domain)
+    if not isinstance(environment, EnumerableEnvironment):
+        raise ConfigurationError(f"{domain}: its states cannot be listed; write problems by hand")
+    if out is not None and out.exists():
+        raise ConfigurationError(f"{out} exists already; choose another --out, nothing was changed")
+    with messages().status("searching all states"):
+        generator = ProblemGenerator(environment, reference_of(domain), seed)
+        made = generator.generate(easy, hard, impossible)
+    environment.close()
+    if out is not None:
+        made.write(out)
+    if as_json:
+        print_json({"out": None if out is None else str(out), **made.to_data()})
+    else:
+        _print(made, out)
+
+
+def _print(made: ProblemSet, out: Path | None) -> None:
+    table = Table(box=None, pad_edge=False)
+    for title in ("problem", "skills", "layout", "why impossible"):
+        table.add_column(title)
+    for problem in made.problems:
+        length = "-" if problem.length is None else str(problem.length)
+        table.add_row(problem.name, length, str(problem.layout), problem.reason)
+    console = results()
+    console.print(table)
+    if out is not None:
+        console.print(f"wrote {out}", markup=False)
