@@ -52,7 +52,7 @@ def evaluation(domain: Domain, name: str = "a", *predicates: Predicate) -> Evalu
 def all_true(request: ModelRequest) -> str:
     """Stage one: anything; stage two: every statement is true."""
     if request.role is Role.EVALUATE:
-        return "All of that is so."
+        return "I see the robot. All of that is so."
     return "\n".join(f"{atom}: true" for atom in section(request.prompt, "Statements"))
 
 
@@ -105,6 +105,26 @@ def test_missing_groundings_alone_are_asked_again_and_are_then_unknown(burger: D
     assert "no clear judgement on holding(robot, patty)" in model.requests[2].prompt
 
 
+def test_a_first_reply_about_nothing_is_asked_for_again(burger: Domain) -> None:
+    def nonsense_at_first(request: ModelRequest) -> str:
+        if request.role is Role.EVALUATE and request.repetition < 2:
+            return "Colourless green ideas sleep furiously."
+        return all_true(request)
+
+    helper, model = assistant(nonsense_at_first)
+    (answer,) = helper.evaluate([evaluation(burger)])
+    assert set(answer.labels.values()) == {True}
+    roles = [(r.role, r.repetition) for r in model.requests]
+    assert roles == [(Role.EVALUATE, n) for n in range(3)] + [(Role.SUMMARISE, 2)]
+
+
+def test_replies_of_no_use_are_bounded(burger: Domain) -> None:
+    helper, model = assistant(lambda _: "No.", unusable_reasks=3)
+    (answer,) = helper.evaluate([evaluation(burger)])
+    assert set(answer.labels.values()) == {None}
+    assert len(model.requests) == 4
+
+
 def test_unsure_is_an_answer_and_not_asked_again(burger: Domain) -> None:
     helper, model = assistant(lambda request: all_true(request).replace("true", "unsure"))
     (answer,) = helper.evaluate([evaluation(burger)])
@@ -121,7 +141,7 @@ def test_an_empty_vocabulary_needs_no_call(burger: Domain) -> None:
 
 def label_by_picture(request: ModelRequest) -> str:
     if request.role is Role.EVALUATE:
-        return request.pictures[0].png.decode()
+        return f"{request.pictures[0].png.decode()} patty"
     word = "true" if '"""\neven' in request.prompt else "false"
     return "\n".join(f"{atom}: {word}" for atom in section(request.prompt, "Statements"))
 
@@ -183,7 +203,7 @@ def test_a_provider_error_ends_the_wave(burger: Domain) -> None:
 
 def test_votes_decide_by_majority_and_agreement_is_told(burger: Domain) -> None:
     def wavering(request: ModelRequest) -> str:
-        word = "false" if request.repetition == 3 else "true"
+        word = "false" if request.repetition == 7 else "true"
         return all_true(request).replace("true", word)
 
     helper, model = assistant(wavering, votes=3)
@@ -193,7 +213,7 @@ def test_votes_decide_by_majority_and_agreement_is_told(burger: Domain) -> None:
     atom = Atom("is_cut", ("lettuce",))
     assert answer.labels == {atom: True}
     assert answer.agreement == {atom: pytest.approx(2 / 3)}
-    assert {r.repetition for r in model.requests} == {0, 3, 6}
+    assert {r.repetition for r in model.requests} == {0, 7, 14}
 
 
 @pytest.mark.parametrize(
@@ -244,7 +264,7 @@ def test_the_proposal_prompt_names_hints(burger: Domain) -> None:
 
 
 def test_giving_up_after_a_bounded_number_of_unusable_replies(burger: Domain) -> None:
-    helper, model = assistant(lambda _: "no", reasks=3)
+    helper, model = assistant(lambda _: "no", unusable_reasks=3)
     answer = helper.propose_sequences(proposal(burger))
     assert answer.sequences == ()
     assert answer.unusable
@@ -382,9 +402,9 @@ class ForgettingModel(ScriptedModel):
 
 
 def test_models_that_keep_replies_are_told_which_were_of_no_use(burger: Domain) -> None:
-    replies = iter(["nothing", "Pick(robot, patty)", "I see.", "No idea.", "I see.", "No idea."])
+    replies = iter(["nothing", "Pick(robot, patty)", "A robot.", "No idea.", "I will not."])
     model = ForgettingModel(lambda _: next(replies))
-    helper = Assistant(ModelSet.of(model), settings=AssistantSettings(reasks=1))
+    helper = Assistant(ModelSet.of(model), settings=AssistantSettings(unusable_reasks=1))
 
     helper.propose_sequences(proposal(burger))
     helper.evaluate([evaluation(burger)])

@@ -116,7 +116,7 @@ class Assistant:
         """The first usable reading of a reply, or the last one if none is."""
         asked = request
         parsed = parse(self._models.complete(asked).text)
-        for time in range(1, self._settings.asks):
+        for time in range(1, 1 + self._settings.unusable_reasks):
             if usable(parsed):
                 return parsed
             self._models.take_back(asked)

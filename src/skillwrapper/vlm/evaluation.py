@@ -10,6 +10,7 @@ from functools import lru_cache
 from skillwrapper.symbols.predicates import Atom, Predicate, all_groundings
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.parsing import parse_labels
+from skillwrapper.vlm.parsing.names import fold
 from skillwrapper.vlm.protocol import ModelRequest
 from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.vlm.requests import RequestBuilder
@@ -61,29 +62,34 @@ class Evaluator:
         """The labels of one task; what stays unanswered is unknown (DESIGN.md D10)."""
         labels: _Labels = {}
         missing, problem = task.atoms, ""
-        for time in range(self._settings.asks):
-            found, missing, problem = self._ask(task, missing, time, problem)
-            labels.update(found)
-            if not missing:
+        incomplete = unusable = 0
+        while missing:
+            labels.update(self._ask(task, missing, incomplete + unusable, problem))
+            incomplete, unusable = incomplete + bool(labels), unusable + (not labels)
+            missing = tuple(atom for atom in missing if atom not in labels)
+            problem = f"no clear judgement on {', '.join(map(str, missing[:3]))}"
+            if incomplete > self._settings.reasks or unusable > self._settings.unusable_reasks:
                 break
         return {atom: labels.get(atom) for atom in task.atoms}
 
     def _ask(
         self, task: _Task, atoms: tuple[Atom, ...], time: int, problem: str
-    ) -> tuple[Mapping[Atom, bool | None], tuple[Atom, ...], str]:
-        """What is found out, what is still missing, and what to say when asking again."""
-        repetition = task.vote * self._settings.asks + time
+    ) -> Mapping[Atom, bool | None]:
+        """Both stages once: the labels that were found; none if the replies are of no use."""
+        repetition = task.vote * self._settings.most_repetitions + time
         judging = self._again(self._requests.evaluation(task.question, atoms), problem, time)
         judging = replace(judging, repetition=repetition)
         free = self._models.complete(judging).text
+        if not _speaks_of_scene(free, task.question):
+            self._models.take_back(judging)
+            return {}
         summing = self._again(self._requests.summary(task.question, atoms, free), problem, time)
         summing = replace(summing, repetition=repetition)
         parsed = parse_labels(self._models.complete(summing).text, atoms)
         if not parsed.labels:
             self._models.take_back(judging)
             self._models.take_back(summing)
-        named = ", ".join(map(str, parsed.missing[:3]))
-        return parsed.labels, parsed.missing, f"no clear judgement on {named}"
+        return parsed.labels
 
     def _again(self, request: ModelRequest, problem: str, time: int) -> ModelRequest:
         return self._requests.again(request, problem, time) if time else request
@@ -98,6 +104,13 @@ class Evaluator:
                 cast = [vote[atom] for vote in votes]
                 labels[atom], agreement[atom] = majority(cast, self._settings.margin)
         return EvaluationAnswer(labels, agreement if self._settings.votes > 1 else {})
+
+
+def _speaks_of_scene(text: str, question: EvaluationQuestion) -> bool:
+    """Whether a free reply names anything it was asked about; refusals and nonsense do not."""
+    said = fold(text)
+    names = (*(o.name for o in question.objects), *(p.name for p in question.predicates))
+    return any(fold(name) in said for name in names)
 
 
 @lru_cache(maxsize=64)

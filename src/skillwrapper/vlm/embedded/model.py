@@ -25,6 +25,7 @@ from skillwrapper.vlm.embedded.spoiling import spoil
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage
 from skillwrapper.world.observation import Picture
 
+_ASKED_AGAIN = "\n\nThis is asked again (time "
 _MOST_TIMEOUTS = 12
 _CHARACTERS_PER_TOKEN = 4
 _TOKENS_PER_PICTURE = 765
@@ -72,17 +73,19 @@ class EmbeddedModel:
             ModelUnavailableError: if the noise profile lets every attempt time out.
         """
         began = time.perf_counter()
-        chance = Chance(self._seed, request.prompt, *(p.sha256 for p in request.pictures))
-        self._wait_out(chance)
-        text = self._answer(PromptText.of(request.prompt), request.pictures, chance)
+        pictures = [picture.sha256 for picture in request.pictures]
+        # Who asks again, because a reply got lost on the way, is told the same once more.
+        question = request.prompt.partition(_ASKED_AGAIN)[0]
+        chance = Chance(self._seed, question, *pictures)
+        text = self._answer(PromptText.of(question), request.pictures, chance)
         if self._noise is not NO_NOISE:
-            text = spoil(text, self._noise, chance)
+            mishaps = Chance(self._seed, "mishaps", request.prompt, *pictures)
+            self._wait_out(mishaps)
+            text = spoil(text, self._noise, mishaps)
         return ModelReply(text, _usage(request, text, time.perf_counter() - began))
 
     def _wait_out(self, chance: Chance) -> None:
         """Timeouts are only counted, not waited for."""
-        if not self._noise.timeouts:
-            return
         for _ in range(_MOST_TIMEOUTS):
             if not chance.happens(self._noise.timeouts):
                 return

@@ -18,7 +18,7 @@ _SAME_OBJECT = 4.0
 _SCARCE_SKILL = 2.0
 _UNEXPLORED_PAIR = 3.0
 _REPEATED = 0.05
-_LIKELY_STEPS = 0.8
+_LIKELY_STEPS = 0.7
 """Share of the steps that are taken among those that should work, as far as is known."""
 _COUNT = r"[Pp]lan (\d+) different"
 _LENGTH = r"at least (\d+) skills"

@@ -1,0 +1,93 @@
+"""The chat-completions protocol, as far as our test server speaks it."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import hashlib
+import json
+from typing import Any
+
+from skillwrapper.errors import UserError
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role
+from skillwrapper.world.observation import Picture
+
+_DATA_URL = "data:image/"
+
+
+class BadChatRequestError(UserError):
+    """A request body that is no chat-completions request."""
+
+
+def read_request(body: bytes) -> tuple[str, ModelRequest]:
+    """The name of the model that is asked, and what it is asked.
+
+    Raises:
+        BadChatRequestError: if the body is not what the protocol asks for.
+    """
+    try:
+        data = json.loads(body)
+        system = [_text(m["content"]) for m in data["messages"] if m["role"] == "system"]
+        user = [m["content"] for m in data["messages"] if m["role"] == "user"]
+        pictures = tuple(picture for content in user for picture in _pictures(content))
+        prompt = "\n".join(_text(content) for content in user)
+        # Which role a prompt has is not part of the protocol; the embedded model asks no role.
+        return str(data["model"]), ModelRequest(Role.EVALUATE, "\n".join(system), prompt, pictures)
+    except (ValueError, KeyError, TypeError, binascii.Error) as error:
+        raise BadChatRequestError(
+            f"expected a chat-completions request, got {type(error).__name__}: {error}"
+        ) from error
+
+
+def completion(model: str, request: ModelRequest, reply: ModelReply) -> dict[str, Any]:
+    """The body of an answer."""
+    return _body(model, {"role": "assistant", "content": reply.text, "refusal": None}, reply)
+
+
+def refusal(model: str, reply: ModelReply) -> dict[str, Any]:
+    """The body of a refusal."""
+    said = "I'm sorry, but I can't help with that."
+    return _body(model, {"role": "assistant", "content": None, "refusal": said}, reply)
+
+
+def without_choice(model: str, reply: ModelReply) -> dict[str, Any]:
+    """The body of an answer that holds none."""
+    return {**_body(model, {}, reply), "choices": []}
+
+
+def error_body(message: str, kind: str, code: str | None = None) -> dict[str, Any]:
+    """The body of an error."""
+    return {"error": {"message": message, "type": kind, "param": None, "code": code}}
+
+
+def _body(model: str, message: dict[str, Any], reply: ModelReply) -> dict[str, Any]:
+    tokens_in, tokens_out = reply.usage.input_tokens or 0, reply.usage.output_tokens or 0
+    digest = hashlib.sha256(reply.text.encode("utf-8", "surrogatepass")).hexdigest()
+    return {
+        "id": f"chatcmpl-{digest[:24]}",
+        "object": "chat.completion",
+        "created": 0,
+        "model": model,
+        "choices": [{"index": 0, "message": message, "finish_reason": "stop", "logprobs": None}],
+        "usage": {
+            "prompt_tokens": tokens_in,
+            "completion_tokens": tokens_out,
+            "total_tokens": tokens_in + tokens_out,
+        },
+    }
+
+
+def _text(content: Any) -> str:
+    if isinstance(content, str):
+        return content
+    return "\n".join(part["text"] for part in content if part["type"] == "text")
+
+
+def _pictures(content: Any) -> list[Picture]:
+    if isinstance(content, str):
+        return []
+    urls = [part["image_url"]["url"] for part in content if part["type"] == "image_url"]
+    for url in urls:
+        if not url.startswith(_DATA_URL):
+            raise ValueError("pictures must be data URLs")
+    return [Picture(base64.b64decode(url.partition(",")[2], validate=True)) for url in urls]
