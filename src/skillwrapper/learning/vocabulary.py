@@ -63,13 +63,17 @@ class Vocabulary:
 
     def _reconcile(self, predicate: Predicate) -> Predicate:
         """Resolve a clash of names: widen the types if possible, else rename."""
-        for other in (*self.active, *self.dormant):
-            if other.name == predicate.name and other.types != predicate.types:
-                widened = self._widen(other, predicate)
-                if widened is not None:
-                    return widened
-                return replace(predicate, name="_".join((predicate.name, *predicate.types)))
-        return predicate
+        known = {p.name: p for p in (*self.active, *self.dormant)}
+        namesake = known.get(predicate.name, predicate)
+        if namesake.types == predicate.types:
+            return predicate
+        widened = self._widen(namesake, predicate)
+        if widened is not None:
+            return widened
+        name = predicate.name
+        while known.get(name, predicate).types != predicate.types:
+            name = "_".join((name, *(predicate.types or ("scene",))))
+        return replace(predicate, name=name)
 
     def _widen(self, known: Predicate, other: Predicate) -> Predicate | None:
         if known.arity != other.arity:
