@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.learning.fitting import Fit
-from skillwrapper.learning.lifted_states import LiftedState, lifted_state
+from skillwrapper.learning.lifted_states import LiftedState, is_lifted_state_known, lifted_state
 from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.symbols import FALSE
@@ -102,13 +102,17 @@ def _lifted_starts(
     prediction: TablePrediction, *, success: bool
 ) -> Iterator[tuple[int, LiftedState]]:
     table = prediction.table
-    remembered: dict[tuple[int, bytes], LiftedState] = {}
+    remembered: dict[tuple[int, bytes], LiftedState | None] = {}
     for row in np.flatnonzero((table.success == success) & ~prediction.undecided):
-        key = (int(table.which[row]), table.before[row].tobytes())
+        before = table.before[row]
+        key = (int(table.which[row]), before.tobytes())
         if key not in remembered:
             instance = table.instances[table.which[row]]
-            remembered[key] = lifted_state(table.space, table.before[row], instance)
-        yield int(table.ids[row]), remembered[key]
+            known = is_lifted_state_known(table.space, before, instance)
+            remembered[key] = lifted_state(table.space, before, instance) if known else None
+        start = remembered[key]
+        if start is not None:
+            yield int(table.ids[row]), start
 
 
 def _lifted_changes(

@@ -34,11 +34,17 @@ def lifted_state(space: AtomSpace, state: Labels, instance: SkillInstance) -> Li
     )
 
 
-def unknown_nearby(space: AtomSpace, state: Labels, instance: SkillInstance) -> bool:
-    """Whether a nullary atom or one of an argument is unknown in a state (atoms,)."""
-    arguments = set(instance.arguments)
-    unknown = (space.atoms[i] for i in np.flatnonzero(state == UNKNOWN))
-    return any(not a.terms or arguments & set(a.terms) for a in unknown)
+def is_lifted_state_known(space: AtomSpace, state: Labels, instance: SkillInstance) -> bool:
+    """Whether no unknown label in a state (atoms,) belongs to its lifted state."""
+    unknown = [space.atoms[i] for i in np.flatnonzero(state == UNKNOWN)]
+    if not unknown:
+        return True
+    near = set(instance.arguments)
+    if any(not a.terms or near.intersection(a.terms) for a in unknown):
+        return False
+    true = (space.atoms[i] for i in np.flatnonzero(state == TRUE))
+    context = {t for a in true if near.intersection(a.terms) for t in a.terms}
+    return not any(len(a.terms) == 1 and a.terms[0] in context for a in unknown)
 
 
 def _describe(
