@@ -1,0 +1,133 @@
+"""Fitting skill by skill: nothing is learned twice; tautologies take no part."""
+
+from __future__ import annotations
+
+import pytest
+from notebook import Notebook, make_domain
+
+from skillwrapper.learning import fitting
+from skillwrapper.symbols import AtomSpace, Predicate
+
+KITCHEN = make_domain(
+    types={"robot": (), "item": ()},
+    objects={"r": "robot", "a": "item", "b": "item"},
+    skills={"Take": "robot item", "Drop": "robot item", "Wave": "robot"},
+)
+HELD = Predicate("held", ("item",))
+EMPTY = Predicate("empty", ("robot",))
+SUNNY = Predicate("sunny", ())
+
+
+@pytest.fixture
+def learned(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The skills that were learned, in order."""
+    names: list[str] = []
+    original = fitting.fit_skill
+
+    def spy(domain, skill, data, predicates):
+        names.append(skill.name)
+        return original(domain, skill, data, predicates)
+
+    monkeypatch.setattr(fitting, "fit_skill", spy)
+    return names
+
+
+def some_data() -> Notebook:
+    notebook = Notebook(KITCHEN, EMPTY, HELD)
+    notebook.success("empty(r)", "Take(r, a)", "held(a)")
+    notebook.success("held(a)", "Drop(r, a)", "empty(r)")
+    return notebook
+
+
+def test_an_episode_relearns_only_its_skills(learned: list[str]) -> None:
+    notebook = some_data()
+    fitter = notebook.fitter()
+    first = fitter.fit([EMPTY, HELD])
+    assert learned == ["Take", "Drop", "Wave"]
+    notebook.success("empty(r)", "Take(r, b)", "held(b)")
+    learned.clear()
+    second = fitter.fit([EMPTY, HELD])
+    assert learned == ["Take"]
+    assert second.skills["Drop"] is first.skills["Drop"]
+    assert len(second.skills["Take"].predictions[0].table) == 2
+
+
+def test_the_same_question_twice_learns_nothing(learned: list[str]) -> None:
+    fitter = some_data().fitter()
+    fitter.fit([EMPTY, HELD])
+    fitter.fit([HELD])
+    learned.clear()
+    fitter.fit([EMPTY, HELD])
+    fitter.fit([HELD])
+    assert learned == []
+
+
+def test_what_is_remembered_is_what_would_be_learned_afresh() -> None:
+    notebook = some_data()
+    fitter = notebook.fitter()
+    fitter.fit([EMPTY, HELD])
+    notebook.success("empty(r)", "Take(r, b)", "held(b)")
+    notebook.failure("held(a)", "Drop(r, b)")
+    assert fitter.fit([EMPTY, HELD]).model == notebook.fitter().fit([EMPTY, HELD]).model
+
+
+def test_only_earlier_data_are_forgotten(learned: list[str]) -> None:
+    notebook = some_data()
+    fitter = notebook.fitter()
+    fitter.fit([EMPTY, HELD])
+    notebook.success("empty(r)", "Take(r, b)", "held(b)")
+    fitter.fit([EMPTY, HELD])
+    learned.clear()
+    fitter.forget()
+    fitter.fit([EMPTY, HELD])
+    assert learned == []
+
+
+def test_tautologies_take_no_part() -> None:
+    """D9: nor do they count as new when they are joined by data that change them."""
+    notebook = some_data()
+    fit = notebook.fit(EMPTY, HELD, SUNNY)
+    assert fit.predicates == (EMPTY, HELD, SUNNY)
+    assert fit.operators
+    used = {p.atom.predicate for o in fit.operators for p in o.operator.preconditions}
+    assert used == {"empty", "held"}
+    notebook.success("empty(r) sunny()", "Take(r, b)", "held(b) sunny()")
+    fitter = notebook.fitter()
+    assert not fitter.is_tautology(SUNNY)
+    used = {
+        p.atom.predicate for o in fitter.fit([SUNNY]).operators for p in o.operator.preconditions
+    }
+    assert used == {"sunny"}
+
+
+def test_a_tautology_that_ends_relearns_all(learned: list[str]) -> None:
+    notebook = some_data()
+    fitter = notebook.fitter()
+    fitter.fit([EMPTY, HELD, SUNNY])
+    learned.clear()
+    notebook.success("empty(r) sunny()", "Wave(r)", "empty(r)")
+    fitter.fit([EMPTY, HELD, SUNNY])
+    assert learned == ["Take", "Drop", "Wave"]
+
+
+def test_unknown_labels_make_no_difference_to_a_tautology() -> None:
+    notebook = some_data()
+    notebook.failure("?sunny()", "Wave(r)")
+    assert notebook.fitter().is_tautology(SUNNY)
+
+
+def test_only_the_labels_of_the_skills_pictures_count() -> None:
+    notebook = some_data()
+    fit = notebook.fit(EMPTY, HELD)
+    for name, skill in fit.skills.items():
+        assert sum(len(p.table) for p in skill.predictions) == (name != "Wave")
+        for prediction in skill.predictions:
+            assert prediction.table.space == AtomSpace((EMPTY, HELD), KITCHEN.objects)
+
+
+def test_cost_counts_operators_and_wrong_transitions() -> None:
+    notebook = some_data()
+    assert notebook.fit(EMPTY, HELD).cost == 2
+    notebook.failure("empty(r) #2", "Take(r, b)")
+    notebook.failure("empty(r) #3", "Take(r, b)")
+    assert notebook.fit(EMPTY, HELD).cost == 4
