@@ -24,9 +24,9 @@ def learned(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     names: list[str] = []
     original = fitting.fit_skill
 
-    def spy(domain, skill, data, predicates):
+    def spy(domain, skill, data, predicates, **options):
         names.append(skill.name)
-        return original(domain, skill, data, predicates)
+        return original(domain, skill, data, predicates, **options)
 
     monkeypatch.setattr(fitting, "fit_skill", spy)
     return names

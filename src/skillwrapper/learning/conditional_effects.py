@@ -63,7 +63,12 @@ class _Rule:
 
 
 def learn_with_conditional_effects(
-    domain: Domain, skill: Skill, clusters: Sequence[Cluster], predicates: Sequence[Predicate]
+    domain: Domain,
+    skill: Skill,
+    clusters: Sequence[Cluster],
+    predicates: Sequence[Predicate],
+    *,
+    absences: bool = True,
 ) -> tuple[LearnedOperator, ...]:
     """Operators with conditional effects; none if no change ranges over a set by a rule.
 
@@ -72,6 +77,7 @@ def learn_with_conditional_effects(
         skill: the skill.
         clusters: its successes.
         predicates: the vocabulary without tautologies.
+        absences: whether preconditions may be universal absences.
     """
     groups = [group for cluster in clusters for group in cluster.groups]
     ranging = _ranging_changes(groups)
@@ -82,7 +88,8 @@ def learn_with_conditional_effects(
         rules = _find_rules(cluster, predicates)
         if rules is None:
             return ()
-        plain = operator_of(domain, skill, cluster, predicates, f"{skill.name}_{number}")
+        name = f"{skill.name}_{number}"
+        plain = operator_of(domain, skill, cluster, predicates, name, absences=absences)
         effects = frozenset(_effect(domain, plain.operator, rule) for rule in rules)
         operator = replace(plain.operator, conditional_effects=effects)
         learned.append(replace(plain, operator=operator))

@@ -25,6 +25,9 @@ from skillwrapper.symbols import UNKNOWN, AbstractModel, AtomSpace, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
+OPERATOR_COST = 2
+"""Transitions that an operator has to account for to be worth having."""
+
 
 @dataclass(frozen=True)
 class SkillFit:
@@ -41,6 +44,11 @@ class SkillFit:
     operators: tuple[LearnedOperator, ...]
     predictions: tuple[TablePrediction, ...]
     inconsistencies: tuple[Inconsistency, ...]
+
+    @cached_property
+    def undecided(self) -> frozenset[int]:
+        """Numbers of the transitions that hang on an unknown label (DESIGN.md D10)."""
+        return frozenset(int(i) for p in self.predictions for i in p.table.ids[p.undecided])
 
     def score(self, kind: InconsistencyKind) -> float:
         """Share of valid transitions (Algorithm 5 of the paper, with DESIGN.md D6).
@@ -86,8 +94,19 @@ class Fit:
 
     @property
     def cost(self) -> int:
-        """Operators and transitions that are wrong: what it takes to account for the data."""
-        return len(self.operators) + len(self.witnesses)
+        """What it takes to account for the data: operators, and transitions that are wrong.
+
+        An operator counts as much as ``OPERATOR_COST`` transitions: one that is not needed for
+        more is no insight.
+        """
+        return OPERATOR_COST * len(self.operators) + len(self.witnesses)
+
+    @property
+    def hard_cost(self) -> int:
+        """The same without the transitions that are wrong by the third and fourth kind."""
+        hard = (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
+        wrong = sum(kind in hard for kind, _, _ in self.witnesses)
+        return OPERATOR_COST * len(self.operators) + wrong
 
     @property
     def model(self) -> AbstractModel:
@@ -102,12 +121,21 @@ class Fitter:
 
     Adding an episode relearns only the skills that occur in it, unless it turned a tautology
     into a predicate that says something.
+
+    Args:
+        domain: types, objects and skills.
+        dataset: the transitions; may grow.
+        truth: the labels of their pictures.
+        absences: whether preconditions may be universal absences (DESIGN.md D2).
     """
 
-    def __init__(self, domain: Domain, dataset: Dataset, truth: TruthSource) -> None:
+    def __init__(
+        self, domain: Domain, dataset: Dataset, truth: TruthSource, *, absences: bool = True
+    ) -> None:
         self.domain = domain
         self.dataset = dataset
         self.truth = truth
+        self._absences = absences
         self._fits: dict[tuple[str, int, tuple[Predicate, ...]], SkillFit] = {}
         self._tautology: dict[tuple[Predicate, int], bool] = {}
 
@@ -143,6 +171,7 @@ class Fitter:
                 skill,
                 self.dataset.skill_data(skill.name, predicates, self.truth),
                 predicates,
+                absences=self._absences,
             )
         return self._fits[key]
 
@@ -152,9 +181,13 @@ def fit_skill(
     skill: Skill,
     data: SkillData,
     predicates: Sequence[Predicate],
+    *,
+    absences: bool = True,
 ) -> SkillFit:
     """Learn one skill from its transitions."""
-    operators, predictions = learn_deterministic_operators(domain, skill, data, predicates)
+    operators, predictions = learn_deterministic_operators(
+        domain, skill, data, predicates, absences=absences
+    )
     return SkillFit(
         skill.name, operators, predictions, find_inconsistencies(skill.name, predictions)
     )

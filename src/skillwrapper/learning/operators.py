@@ -33,7 +33,12 @@ class LearnedOperator:
 
 
 def learn_operators(
-    domain: Domain, skill: Skill, data: SkillData, predicates: Sequence[Predicate]
+    domain: Domain,
+    skill: Skill,
+    data: SkillData,
+    predicates: Sequence[Predicate],
+    *,
+    absences: bool = True,
 ) -> tuple[LearnedOperator, ...]:
     """One operator for each cluster of successes of a skill.
 
@@ -42,9 +47,10 @@ def learn_operators(
         skill: the skill.
         data: its transitions.
         predicates: the vocabulary without tautologies.
+        absences: whether preconditions may be universal absences.
     """
     return tuple(
-        operator_of(domain, skill, cluster, predicates, f"{skill.name}_{number}")
+        operator_of(domain, skill, cluster, predicates, f"{skill.name}_{number}", absences=absences)
         for number, cluster in enumerate(cluster_successes(data), start=1)
     )
 
@@ -57,10 +63,17 @@ def operator_of(
     name: str,
     *,
     between_context: bool = False,
+    absences: bool = True,
 ) -> LearnedOperator:
     """The operator of one cluster: the change it shares, under all that held before."""
     arity = len(skill.parameters)
-    evidence = gather_evidence(cluster.groups, predicates, arity, between_context=between_context)
+    evidence = gather_evidence(
+        cluster.groups,
+        predicates,
+        arity,
+        between_context=between_context,
+        absences=absences,
+    )
     types = [frozenset.intersection(*map(frozenset, column)) for column in _slots(cluster.groups)]
     parameters = _name_parameters(domain, skill, types, evidence.existentials)
     names = [v.name for v in parameters]

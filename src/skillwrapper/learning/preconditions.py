@@ -67,6 +67,7 @@ def gather_evidence(
     arity: int,
     *,
     between_context: bool = False,
+    absences: bool = True,
 ) -> Evidence:
     """What held before every transition of the groups of one cluster.
 
@@ -75,20 +76,21 @@ def gather_evidence(
         predicates: the vocabulary without tautologies.
         arity: number of arguments of the skill.
         between_context: also literals between context objects (DESIGN.md D5).
+        absences: whether universal absences are looked for (DESIGN.md D2).
     """
     size = len(groups[0].lifting.objects)
     literals = _common_literals(
         groups, tuple(_plain_patterns(predicates, arity, size, between_context))
     )
-    absences: list[Pattern] = []
+    absent: list[Pattern] = []
     witnessed: list[Pattern] = []
     for pattern in _open_patterns(predicates, arity):
         verdict = _judge_open(groups, pattern)
-        if verdict is False:
-            absences.append(pattern)
+        if verdict is False and absences:
+            absent.append(pattern)
         elif verdict is True:
             witnessed.append(pattern)
-    return Evidence(literals, tuple(absences), _merge_existentials(groups, witnessed))
+    return Evidence(literals, tuple(absent), _merge_existentials(groups, witnessed))
 
 
 def _plain_patterns(

@@ -23,20 +23,25 @@ from skillwrapper.world.skills import Skill
 
 
 def learn_deterministic_operators(
-    domain: Domain, skill: Skill, data: SkillData, predicates: Sequence[Predicate]
+    domain: Domain,
+    skill: Skill,
+    data: SkillData,
+    predicates: Sequence[Predicate],
+    *,
+    absences: bool = True,
 ) -> tuple[tuple[LearnedOperator, ...], tuple[TablePrediction, ...]]:
     """The operators of a skill, mended as far as the vocabulary allows, and what they predict."""
-    plain = learn_operators(domain, skill, data, predicates)
+    plain = learn_operators(domain, skill, data, predicates, absences=absences)
     predictions = predict(data, plain)
     mistaken = _mistaken_operators(predictions)
     chosen: list[LearnedOperator] = []
     for learned in plain:
         if learned.operator.name in mistaken:
-            chosen += _mend(domain, skill, data, predicates, learned)
+            chosen += _mend(domain, skill, data, predicates, learned, absences=absences)
         else:
             chosen.append(learned)
     clusters = [o.cluster for o in plain]
-    ranging = learn_with_conditional_effects(domain, skill, clusters, predicates)
+    ranging = learn_with_conditional_effects(domain, skill, clusters, predicates, absences=absences)
     if ranging and _cost(data, ranging) < _cost(data, chosen):
         chosen = list(ranging)
     if chosen == list(plain):
@@ -64,6 +69,8 @@ def _mend(
     data: SkillData,
     predicates: Sequence[Predicate],
     learned: LearnedOperator,
+    *,
+    absences: bool,
 ) -> tuple[LearnedOperator, ...]:
     """What replaces an operator without a wrong prediction, or else the operator itself."""
     for clusters, between_context in _variants(learned.cluster):
@@ -75,6 +82,7 @@ def _mend(
                 predicates,
                 learned.operator.name,
                 between_context=between_context,
+                absences=absences,
             )
             for cluster in clusters
         )

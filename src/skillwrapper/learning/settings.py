@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import BaseModel, ConfigDict, Field
 
 
@@ -15,6 +17,10 @@ class LearningSettings(BaseModel):
         candidates: how many candidates are asked for at once; the best is kept (D6).
         max_inventions: upper bound on questions in one iteration.
         prune: whether superfluous predicates are set dormant (D9).
+        absences: whether preconditions may be universal absences (D2).
+        invention: ``pairs`` asks for one predicate at a time, from what disagrees with the model;
+            ``batch`` asks for all of them once, after the first iteration (FM Invent).
+        batch_size: how many predicates ``batch`` asks for at most.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -24,3 +30,6 @@ class LearningSettings(BaseModel):
     candidates: int = Field(default=3, ge=1)
     max_inventions: int = Field(default=60, ge=0)
     prune: bool = True
+    absences: bool = True
+    invention: Literal["pairs", "batch"] = "pairs"
+    batch_size: int = Field(default=20, ge=1)

@@ -28,6 +28,7 @@ from skillwrapper.run.artifacts import (
     write_learned_model,
     write_truth_table,
 )
+from skillwrapper.run.batch_invention import BatchInventor
 from skillwrapper.run.config import RunConfig
 from skillwrapper.run.events import EventKind, RunEvent, Watcher
 from skillwrapper.run.folder import RunFolder, append_line, write_json
@@ -103,15 +104,9 @@ class LearningRun:
         self.dataset = Dataset(domain)
         self.truth = TruthTable(domain, assistant)
         self._explorer = Explorer(domain, assistant, config.exploration, config.seed)
-        self._fitter = Fitter(domain, self.dataset, self.truth)
+        self._fitter = Fitter(domain, self.dataset, self.truth, absences=config.learning.absences)
         self._vocabulary = Vocabulary(domain.types)
-        self._inventor = Inventor(
-            self._fitter,
-            self._vocabulary,
-            ModelProposer(self.dataset, assistant, config.learning.candidates),
-            config.learning,
-            self._decided,
-        )
+        self._inventor = self._make_inventor(assistant)
         self._iteration = 0
         self._finished = folder.finished_iterations()
         self._decisions: list[dict[str, Any]] = []
@@ -132,6 +127,15 @@ class LearningRun:
         write_learned_model(self._folder, result.fit.model)
         write_json(self._folder.path / "result.json", result.to_json())
         return result
+
+    def _make_inventor(self, assistant: Assistant) -> Inventor | BatchInventor:
+        settings = self._config.learning
+        if settings.invention == "batch":
+            return BatchInventor(
+                self._fitter, self._vocabulary, assistant, settings.batch_size, self._decided
+            )
+        proposer = ModelProposer(self.dataset, assistant, settings.candidates)
+        return Inventor(self._fitter, self._vocabulary, proposer, settings, self._decided)
 
     def _iterate(self) -> LearningResult:
         self._iteration += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -52,7 +53,8 @@ class NoiseProfile:
 
     Attributes:
         name: of the profile.
-        rates: error rates by the idea of a concept, e.g. ``hand_empty``; others have none.
+        rates: error rates by the idea of a concept, e.g. ``hand_empty``.
+        other_rates: error rates of all other ideas.
         clean_pictures: share of pictures without any error of judgement; the errors are in
             the others, as often as the rates over all pictures ask for.
         confusions: things taken for each other.
@@ -63,6 +65,7 @@ class NoiseProfile:
 
     name: str
     rates: Mapping[str, ErrorRates] = field(default_factory=dict)
+    other_rates: ErrorRates = field(default_factory=ErrorRates)
     clean_pictures: float = 0.0
     confusions: tuple[Confusion, ...] = ()
     malformed: float = 0.0
@@ -100,11 +103,13 @@ PROFILES: Mapping[str, NoiseProfile] = MappingProxyType({p.name: p for p in (NO_
 
 
 def noise_profile(name: str) -> NoiseProfile:
-    """The profile of a name.
+    """The profile of a name, or of a rate such as ``0.05``: every judgement errs so often.
 
     Raises:
         UnknownNameError: if there is none.
     """
+    if re.fullmatch(r"0?\.\d+", name):
+        return NoiseProfile(name, other_rates=ErrorRates(float(name), float(name)))
     if name not in PROFILES:
         raise UnknownNameError("noise profile", name, PROFILES)
     return PROFILES[name]
@@ -137,9 +142,7 @@ class Judgement:
         return Chance(self._seed, "clean", sight.key).happens(share)
 
     def _errs(self, idea: str, holds: bool, sight: Sight, arguments: tuple[str, ...]) -> bool:
-        rates = self._profile.rates.get(idea)
-        if rates is None:
-            return False
+        rates = self._profile.rates.get(idea, self._profile.other_rates)
         overall = rates.false_negative if holds else rates.false_positive
         rate = min(1.0, overall / max(1e-9, 1 - self._profile.clean_pictures))
         return Chance(self._seed, "error", sight.key, idea, *arguments).happens(rate)
