@@ -1,0 +1,37 @@
+"""``skillwrapper report``: a run as one page to read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from skillwrapper.cli.output import JsonFlag, print_json, results
+from skillwrapper.report import ReportSettings, write_report
+from skillwrapper.run.folder import RunFolder
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this group."""
+    app.command()(report)
+
+
+def report(
+    run: Annotated[Path, typer.Argument(help="Folder of a run.")],
+    out: Annotated[
+        Path | None, typer.Option(help="HTML file to write; default: RUN/report.html.")
+    ] = None,
+    episodes: Annotated[
+        int, typer.Option(min=0, help="Episodes shown with their pictures, at most.")
+    ] = 12,
+    width: Annotated[int, typer.Option(min=32, help="Width of the pictures in pixels.")] = 224,
+    as_json: JsonFlag = False,
+) -> None:
+    """Write one HTML file that shows what was learned, from what, and at what price."""
+    settings = ReportSettings(picture_width=width, episodes=episodes)
+    written = write_report(RunFolder.open(run), out, settings)
+    if as_json:
+        print_json({"report": str(written), "bytes": written.stat().st_size})
+    else:
+        results().print(f"wrote {written}", markup=False)

@@ -1,0 +1,25 @@
+from pathlib import Path
+
+import pytest
+
+from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.run.config import ModelSettings, RunConfig
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.run.learn import learn
+
+
+@pytest.fixture(scope="session")
+def run(tmp_path_factory: pytest.TempPathFactory) -> RunFolder:
+    """A short, noisy run of the embedded model."""
+    config = RunConfig(
+        domain="burger",
+        seed=2,
+        iterations=3,
+        exploration=ExplorationSettings(budget=20),
+        learning=LearningSettings(attempts=1, candidates=1, threshold=0.9),
+        model=ModelSettings(noise="gpt5"),
+    )
+    path = tmp_path_factory.mktemp("report") / "run"
+    learn(config, path)
+    return RunFolder.open(Path(path))
