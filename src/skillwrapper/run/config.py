@@ -75,8 +75,9 @@ class RunConfig(BaseModel):
 
 def _first_difference(mine: object, theirs: object, path: str = "") -> str:
     if isinstance(mine, dict) and isinstance(theirs, dict):
-        for key in mine:
-            found = _first_difference(mine[key], theirs.get(key), f"{path}.{key}".lstrip("."))
+        for key in dict.fromkeys((*mine, *theirs)):
+            place = f"{path}.{key}".lstrip(".")
+            found = _first_difference(mine.get(key), theirs.get(key), place)
             if found:
                 return found
         return ""

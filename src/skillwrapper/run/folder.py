@@ -57,15 +57,17 @@ class RunFolder:
                     f"{path} holds a run with other settings ({difference}); "
                     "give the same settings to resume it, or choose another --out"
                 )
+            folder._keep_domain(domain_file)
             return folder
-        if path.exists() and any(path.iterdir()):
+        if path.exists() and not all(_is_unfinished(p, CONFIG) for p in path.iterdir()):
             raise RunFolderError(
                 f"{path} is not empty and holds no run; choose another --out, nothing was changed"
             )
         path.mkdir(parents=True, exist_ok=True)
-        write_atomically(path / "domain.yaml", domain_file.read_text(encoding="utf-8"))
         entries = {"run": config.model_dump(mode="json"), "made_with": provenance()}
+        # First what makes the folder a run: one that was stopped right here can be resumed.
         write_atomically(path / CONFIG, yaml.safe_dump(entries, sort_keys=False))
+        folder._keep_domain(domain_file)
         return folder
 
     @classmethod
@@ -81,6 +83,12 @@ class RunFolder:
                 "make one with: skillwrapper learn DOMAIN --out DIR"
             )
         return cls(path)
+
+    def _keep_domain(self, domain_file: Path) -> None:
+        """Keep the domain as it is when the run starts."""
+        kept = self.path / "domain.yaml"
+        if not kept.exists():
+            write_atomically(kept, domain_file.read_text(encoding="utf-8"))
 
     def config(self) -> RunConfig:
         """What the run was asked to do.
@@ -156,6 +164,11 @@ def write_atomically(path: Path, content: str | bytes) -> None:
     data = content.encode("utf-8") if isinstance(content, str) else content
     temporary.write_bytes(data)
     temporary.replace(path)
+
+
+def _is_unfinished(path: Path, name: str) -> bool:
+    """Whether a file is what a crash left of writing the named one."""
+    return path.name.startswith(f".{name}.") and path.suffix == ".tmp"
 
 
 def write_json(path: Path, content: object) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 
 from skillwrapper.domains.registry import domain_file, make_environment
@@ -32,15 +33,15 @@ def learn(config: RunConfig, out: Path, onlooker: Onlooker | None = None) -> Lea
         LimitReachedError: if a limit of the user's is reached; the run can be resumed.
     """
     onlooker = onlooker or Onlooker()
-    environment = make_environment(config.domain)
     folder = RunFolder.create_or_resume(out, config, domain_file(config.domain))
-    with open_assistant(config, folder) as session:
+    with (
+        closing(make_environment(config.domain)) as environment,
+        open_assistant(config, folder) as session,
+    ):
 
         def watch(event: RunEvent) -> None:
             session.note(event)
             onlooker.happened(event)
 
         onlooker.opened(session)
-        result = LearningRun(folder, config, environment, session.assistant, watch).run()
-    environment.close()
-    return result
+        return LearningRun(folder, config, environment, session.assistant, watch).run()
