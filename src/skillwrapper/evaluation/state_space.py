@@ -71,6 +71,19 @@ class StateSpace:
             frontier, steps = reached[distances[reached] < 0], steps + 1
         return distances
 
+    def path_between(self, start: int, goal: int) -> tuple[SkillInstance, ...] | None:
+        """A shortest sequence of skill instances from a state to another; None if there is none."""
+        remaining = self.distances_from(start)
+        if remaining[goal] < 0:
+            return None
+        steps = []
+        while goal != start:
+            before, instance = np.nonzero(self.success & (self.following == goal))
+            nearest = int(np.flatnonzero(remaining[before] == remaining[goal] - 1)[0])
+            goal = int(before[nearest])
+            steps.append(self.instances[int(instance[nearest])])
+        return tuple(reversed(steps))
+
     @cached_property
     def distance(self) -> NDArray[np.intp]:
         """Number of skills on a shortest path from the start to every state (states,)."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -130,24 +130,39 @@ def verify(
     started = time.monotonic()
     environment.reset(seed=seed)
     space = StateSpace.of(environment)
-    observations = [environment.observe_state(state) for state in space.states]
+    labels = labeller([environment.observe_state(state) for state in space.states])
+    found = verify_labels(environment, space, model, labels)
+    return replace(found, seconds=time.monotonic() - started)
+
+
+def verify_labels(
+    environment: EnumerableEnvironment, space: StateSpace, model: AbstractModel, labels: Labels
+) -> Verification:
+    """The same with labels that are known already.
+
+    Args:
+        environment: the domain; draws the counterexamples in its present layout.
+        space: its whole state space.
+        model: the model to check.
+        labels: the abstract state of every state (states, atoms).
+    """
+    started = time.monotonic()
     objects = environment.domain.scene_objects(environment.scene)
     ground = GroundModel.of(model, objects)
-    labels = labeller(observations)
-    if labels.shape != (len(observations), len(ground.space.atoms)):
+    if labels.shape != (len(space.states), len(ground.space.atoms)):
         raise InternalError(
-            f"expected labels of shape {(len(observations), len(ground.space.atoms))}, "
+            f"expected labels of shape {(len(space.states), len(ground.space.atoms))}, "
             f"got {labels.shape}; please report it"
         )
     predictions = predict_all(ground, space, labels)
     verdicts = judge(ground, predictions)
-    return _summary(predictions, verdicts, observations, started)
+    return _summary(predictions, verdicts, environment, started)
 
 
 def _summary(
     predictions: Predictions,
     verdicts: Verdicts,
-    observations: Sequence[Observation],
+    environment: EnumerableEnvironment,
     started: float,
 ) -> Verification:
     space = predictions.space
@@ -177,7 +192,7 @@ def _summary(
         complete=verdicts.complete,
         suitable=verdicts.suitable,
         counterexamples=tuple(
-            _counterexample(space, violation, observations) for violation in verdicts.violations
+            _counterexample(space, violation, environment) for violation in verdicts.violations
         ),
         seconds=time.monotonic() - started,
     )
@@ -189,14 +204,15 @@ def _ratio(part: NDArray[Any], whole: NDArray[Any]) -> float:
 
 
 def _counterexample(
-    space: StateSpace, violation: Violation, observations: Sequence[Observation]
+    space: StateSpace, violation: Violation, environment: EnumerableEnvironment
 ) -> Counterexample:
+    following = int(space.following[violation.state, violation.instance])
     return Counterexample(
         verdict=violation.verdict,
         reason=violation.reason,
         path=space.path_to(violation.state),
         instance=space.instances[violation.instance],
         difference=violation.difference,
-        before=observations[violation.state],
-        after=observations[space.following[violation.state, violation.instance]],
+        before=environment.observe_state(space.states[violation.state]),
+        after=environment.observe_state(space.states[following]),
     )

@@ -1,0 +1,86 @@
+"""Methods that run Algorithm 1, each with its own configuration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from skillwrapper.domains.registry import domain_file
+from skillwrapper.evaluation.methods import Bench, Prepared, Stage
+from skillwrapper.evaluation.readers import PictureReader
+from skillwrapper.perception.truth_table import TruthTable
+from skillwrapper.run.assistants import open_assistant
+from skillwrapper.run.config import RunConfig
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.run.loop import LearningRun
+from skillwrapper.run.recorder import read_episode
+from skillwrapper.symbols.files import read_model
+from skillwrapper.world.episode import Episode
+
+
+def unchanged(config: RunConfig) -> RunConfig:
+    """The experiment's own configuration."""
+    return config
+
+
+@dataclass(frozen=True)
+class LearnedMethod:
+    """Learns a model from pictures, then plans with it.
+
+    Attributes:
+        name: short, as in experiment files.
+        title: as in tables.
+        configure: changes the configuration of the whole method.
+        source: None: it explores itself.
+    """
+
+    name: str
+    title: str
+    configure: Callable[[RunConfig], RunConfig] = unchanged
+    source: str | None = None
+
+    @contextmanager
+    def prepare(self, bench: Bench) -> Iterator[Prepared]:
+        """Learn in the folder ``run`` of the cell, which can be looked at like any other run."""
+        config = self.configure(bench.config())
+        path = bench.folder / "run"
+        folder = RunFolder.create_or_resume(path, config, domain_file(config.domain))
+        figures = _learn(bench, config, folder)
+        stages = read_stages(bench, folder)
+        with open_assistant(config, folder, learning=False) as session:
+            recorded = TruthTable(bench.environment.domain, session.assistant)
+            solver = bench.solver(
+                stages[-1].model,
+                PictureReader(bench.environment, recorded),
+                PictureReader(bench.environment, bench.truth.table),
+                lambda: session.calls,
+            )
+            yield Prepared(
+                solver, stages, bench.truth.labels, read_episodes(folder), recorded, figures
+            )
+
+
+def _learn(bench: Bench, config: RunConfig, folder: RunFolder) -> dict[str, Any]:
+    """Run what is left of the run; figures of the whole."""
+    with open_assistant(config, folder) as session:
+        run = LearningRun(folder, config, bench.environment, session.assistant, session.note)
+        result = run.run()
+        return {**result.to_json(), "calls": session.calls}
+
+
+def read_stages(bench: Bench, folder: RunFolder) -> tuple[Stage, ...]:
+    """The model after every iteration of a run."""
+    executions, stages = 0, []
+    for number, episode in enumerate(read_episodes(folder), start=1):
+        executions += len(episode.transitions)
+        model = read_model(folder.iteration(number) / "model.json", bench.environment.domain)
+        stages.append(Stage(executions, model))
+    return tuple(stages)
+
+
+def read_episodes(folder: RunFolder) -> tuple[Episode, ...]:
+    """The episodes of all finished iterations."""
+    last = folder.finished_iterations()
+    return tuple(read_episode(folder, number) for number in range(1, last + 1))

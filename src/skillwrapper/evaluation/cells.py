@@ -1,0 +1,126 @@
+"""Running one cell of an experiment: prepare the method, check it exactly, solve all problems."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from skillwrapper.errors import RunFolderError
+from skillwrapper.evaluation.efficiency import efficiency_of
+from skillwrapper.evaluation.methods import Bench, Cell, Method, Prepared
+from skillwrapper.evaluation.problems import ProblemSet
+from skillwrapper.evaluation.results import ProblemResult
+from skillwrapper.evaluation.state_truth import StateTruth
+from skillwrapper.evaluation.verification import verify_labels
+from skillwrapper.run.folder import append_line, read_lines, write_json
+from skillwrapper.symbols import AtomSpace
+
+RESULT = "result.json"
+"""Its presence means that the cell is finished."""
+
+_PROBLEMS = "problems.jsonl"
+
+
+@dataclass(frozen=True)
+class CellResult:
+    """What came of a cell.
+
+    Attributes:
+        cell: the cell.
+        problems: one result for each problem.
+        exact: precision, recall, ... of the final model on all states; None without a model.
+        learning: what learning took and brought; empty for methods that do not learn.
+        efficiency: what executions were worth; None for methods that execute none to learn.
+        seconds: time of everything.
+    """
+
+    cell: Cell
+    problems: tuple[ProblemResult, ...]
+    exact: dict[str, Any] | None
+    learning: dict[str, Any]
+    efficiency: dict[str, Any] | None
+    seconds: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data with the attributes as keys."""
+        problems = [p.to_json() for p in self.problems]
+        return {**vars(self), "cell": vars(self.cell), "problems": problems}
+
+    @classmethod
+    def read(cls, folder: Path) -> CellResult:
+        """The result of a finished cell.
+
+        Raises:
+            RunFolderError: if the file was damaged.
+        """
+        path = folder / RESULT
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+            problems = tuple(ProblemResult.from_json(p) for p in data["problems"])
+            return cls(**{**data, "cell": Cell(**data["cell"]), "problems": problems})
+        except (ValueError, KeyError, TypeError) as error:
+            raise RunFolderError(
+                f"{path}: expected the result of a cell, got something else ({error}); "
+                "remove the file and run the experiment again"
+            ) from error
+
+
+def run_cell(
+    method: Method,
+    bench: Bench,
+    problems: ProblemSet,
+    solved: Callable[[ProblemResult], None] = lambda result: None,
+) -> CellResult:
+    """Run a cell, or what is left of it; ``result.json`` is written last.
+
+    Args:
+        method: the method of the cell.
+        bench: what it gets.
+        problems: what it is to solve.
+        solved: told of every result as it comes.
+    """
+    started = time.monotonic()
+    with method.prepare(bench) as prepared:
+        exact = _verify(prepared, bench.truth)
+        efficiency = efficiency_of(prepared, bench.truth)
+        results = _solve_all(prepared, bench.folder / _PROBLEMS, problems, solved)
+    result = CellResult(
+        cell=bench.cell,
+        problems=results,
+        exact=exact,
+        learning=dict(prepared.figures),
+        efficiency=efficiency.to_json() if efficiency else None,
+        seconds=time.monotonic() - started,
+    )
+    write_json(bench.folder / RESULT, result.to_json())
+    return result
+
+
+def _verify(prepared: Prepared, truth: StateTruth) -> dict[str, Any] | None:
+    if not prepared.stages or prepared.label_all is None:
+        return None
+    model = prepared.stages[-1].model
+    space = AtomSpace(model.predicates, truth.environment.domain.objects)
+    labels = prepared.label_all(space)
+    found = verify_labels(truth.environment, truth.space, model, labels).to_json()
+    return {**found, "predicates": len(model.predicates), "operators": len(model.operators)}
+
+
+def _solve_all(
+    prepared: Prepared,
+    record: Path,
+    problems: ProblemSet,
+    solved: Callable[[ProblemResult], None],
+) -> tuple[ProblemResult, ...]:
+    """Solve the problems that are not on record yet."""
+    results = {line["problem"]: ProblemResult.from_json(line) for line in read_lines(record)}
+    for problem in problems.problems:
+        if problem.name not in results:
+            results[problem.name] = prepared.solver.solve(problem)
+            append_line(record, results[problem.name].to_json())
+        solved(results[problem.name])
+    return tuple(results[problem.name] for problem in problems.problems)

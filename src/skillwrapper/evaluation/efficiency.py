@@ -1,0 +1,143 @@
+"""Exploration efficiency: what the executions of a learning method were worth.
+
+The paper says that such a metric is missing. Ours: how much of the exact model is known after how
+many executions, how many executions taught anything, how many pairs of skills were tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from skillwrapper.evaluation.methods import Prepared
+from skillwrapper.evaluation.predictions import Predictions, predict_all
+from skillwrapper.evaluation.state_truth import StateTruth
+from skillwrapper.exploration.coverage import PairCounts
+from skillwrapper.learning.dataset import Dataset, TruthSource
+from skillwrapper.learning.fitting import Fitter
+from skillwrapper.symbols import AbstractModel, GroundModel
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.episode import Episode
+
+
+@dataclass(frozen=True)
+class CurvePoint:
+    """The exact figures of a model on the way of learning.
+
+    Attributes:
+        executions: skills executed until then.
+        precision: as in ``verification.Verification``.
+        recall: likewise.
+        effect_accuracy: likewise.
+        predicates: number of predicates.
+        operators: number of operators.
+    """
+
+    executions: int
+    precision: float
+    recall: float
+    effect_accuracy: float
+    predicates: int
+    operators: int
+
+
+@dataclass(frozen=True)
+class Efficiency:
+    """What executions were worth.
+
+    Attributes:
+        curve: a point for every iteration.
+        area: area under recall over executions, as a share of what an all-knowing learner has;
+            recall is 0 before the first iteration ends, and constant between two ends.
+        changing: share of executions after which relearning, with the final vocabulary, gives
+            other operators than before.
+        pairs_covered: share of pairs of skill instances that were tried one after the other.
+    """
+
+    curve: tuple[CurvePoint, ...]
+    area: float
+    changing: float
+    pairs_covered: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data with the attributes as keys."""
+        return {**vars(self), "curve": [vars(point) for point in self.curve]}
+
+
+def efficiency_of(prepared: Prepared, truth: StateTruth) -> Efficiency | None:
+    """The efficiency of a method; None for one that executes nothing to learn."""
+    if not prepared.episodes or prepared.label_all is None or prepared.recorded is None:
+        return None
+    curve = learning_curve(prepared, truth)
+    domain = truth.environment.domain
+    pairs = PairCounts(domain.skill_instances)
+    for episode in prepared.episodes:
+        pairs.add(t.instance for t in episode.transitions)
+    final = prepared.stages[-1].model
+    return Efficiency(
+        curve=curve,
+        area=area_under([(p.executions, p.recall) for p in curve]),
+        changing=share_changing(domain, prepared.episodes, final, prepared.recorded),
+        pairs_covered=pairs.share_covered(),
+    )
+
+
+def learning_curve(prepared: Prepared, truth: StateTruth) -> tuple[CurvePoint, ...]:
+    """Exact figures of every stage."""
+    points = []
+    for stage in prepared.stages:
+        predictions = _predict(prepared, truth, stage.model)
+        hits = int((predictions.applicable & truth.space.success).sum())
+        points.append(
+            CurvePoint(
+                executions=stage.executions,
+                precision=_ratio(hits, int(predictions.applicable.sum())),
+                recall=_ratio(hits, int(truth.space.success.sum())),
+                effect_accuracy=_ratio(
+                    int(predictions.effects_right.sum()), int(predictions.effects_made.sum())
+                ),
+                predicates=len(stage.model.predicates),
+                operators=len(stage.model.operators),
+            )
+        )
+    return tuple(points)
+
+
+def area_under(points: Sequence[tuple[int, float]]) -> float:
+    """Area under a rising staircase over executions, divided by all executions; 0 without any."""
+    area, height, position = 0.0, 0.0, 0
+    for executions, value in points:
+        area += height * (executions - position)
+        position, height = executions, value
+    return area / position if position else 0.0
+
+
+def share_changing(
+    domain: Domain, episodes: Sequence[Episode], final: AbstractModel, recorded: TruthSource
+) -> float:
+    """Share of executions that change what is learned with the final vocabulary."""
+    dataset = Dataset(domain)
+    fitter = Fitter(domain, dataset, recorded)
+    known = fitter.fit(final.predicates).model.operators
+    changes = 0
+    for episode in episodes:
+        for transition in episode.transitions:
+            dataset.add(replace(episode, transitions=(transition,)))
+            learned = fitter.fit(final.predicates).model.operators
+            changes += learned != known
+            known = learned
+        fitter.forget()
+    return changes / len(dataset) if len(dataset) else 0.0
+
+
+def _predict(prepared: Prepared, truth: StateTruth, model: AbstractModel) -> Predictions:
+    ground = GroundModel.of(model, truth.environment.domain.objects)
+    labels = prepared.label_all(ground.space) if prepared.label_all else np.zeros((0, 0), np.int8)
+    return predict_all(ground, truth.space, labels)
+
+
+def _ratio(part: int, whole: int) -> float:
+    return part / whole if whole else 1.0
