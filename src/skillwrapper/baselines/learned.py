@@ -58,7 +58,13 @@ class LearnedMethod:
                 lambda: session.calls,
             )
             yield Prepared(
-                solver, stages, bench.truth.labels, read_episodes(folder), recorded, figures
+                solver,
+                stages,
+                bench.truth.labels,
+                read_episodes(folder),
+                recorded,
+                config.learning.absences,
+                figures,
             )
 
 

@@ -91,6 +91,7 @@ class SystemMethod:
             lambda atoms: reader.read(atoms, states),
             episodes,
             recorded,
+            self.absences,
             _figures(fit, len(dataset)),
         )
 

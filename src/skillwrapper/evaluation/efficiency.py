@@ -16,10 +16,9 @@ from skillwrapper.evaluation.methods import Prepared
 from skillwrapper.evaluation.predictions import Predictions, predict_all
 from skillwrapper.evaluation.state_truth import StateTruth
 from skillwrapper.exploration.coverage import PairCounts
-from skillwrapper.learning.dataset import Dataset, TruthSource
+from skillwrapper.learning.dataset import Dataset
 from skillwrapper.learning.fitting import Fitter
-from skillwrapper.symbols import AbstractModel, GroundModel
-from skillwrapper.world.domain import Domain
+from skillwrapper.symbols import AbstractModel, GroundModel, Predicate
 from skillwrapper.world.episode import Episode
 
 
@@ -76,11 +75,14 @@ def efficiency_of(prepared: Prepared, truth: StateTruth) -> Efficiency | None:
     pairs = PairCounts(domain.skill_instances)
     for episode in prepared.episodes:
         pairs.add(t.instance for t in episode.transitions)
-    final = prepared.stages[-1].model
     return Efficiency(
         curve=curve,
         area=area_under([(p.executions, p.recall) for p in curve]),
-        changing=share_changing(domain, prepared.episodes, final, prepared.recorded),
+        changing=share_changing(
+            Fitter(domain, Dataset(domain), prepared.recorded, absences=prepared.absences),
+            prepared.episodes,
+            prepared.stages[-1].model.predicates,
+        ),
         pairs_covered=pairs.share_covered(),
     )
 
@@ -116,17 +118,21 @@ def area_under(points: Sequence[tuple[int, float]]) -> float:
 
 
 def share_changing(
-    domain: Domain, episodes: Sequence[Episode], final: AbstractModel, recorded: TruthSource
+    fitter: Fitter, episodes: Sequence[Episode], predicates: Sequence[Predicate]
 ) -> float:
-    """Share of executions that change what is learned with the final vocabulary."""
-    dataset = Dataset(domain)
-    fitter = Fitter(domain, dataset, recorded)
-    known = fitter.fit(final.predicates).model.operators
-    changes = 0
+    """Share of executions that change what is learned with the final vocabulary.
+
+    Args:
+        fitter: with an empty data set.
+        episodes: what was executed.
+        predicates: the final vocabulary.
+    """
+    dataset, changes = fitter.dataset, 0
+    known = fitter.fit(predicates).model.operators
     for episode in episodes:
         for transition in episode.transitions:
             dataset.add(replace(episode, transitions=(transition,)))
-            learned = fitter.fit(final.predicates).model.operators
+            learned = fitter.fit(predicates).model.operators
             changes += learned != known
             known = learned
         fitter.forget()

@@ -142,6 +142,7 @@ class Prepared:
         label_all: labels of all states (states, atoms) without error, for exact figures.
         episodes: what was executed for learning.
         recorded: the labels of the recorded pictures that it learned from.
+        absences: whether it learns universal absences.
         figures: what learning took and brought, as plain data.
     """
 
@@ -150,6 +151,7 @@ class Prepared:
     label_all: Callable[[AtomSpace], Labels] | None = None
     episodes: tuple[Episode, ...] = ()
     recorded: TruthSource | None = None
+    absences: bool = True
     figures: Mapping[str, Any] = field(default_factory=dict)
 
 

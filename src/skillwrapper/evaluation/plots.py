@@ -1,0 +1,169 @@
+"""Plots of an experiment: learning curves, noise curves, problems by methods."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from skillwrapper.baselines.registry import METHODS
+from skillwrapper.errors import MissingDependencyError
+from skillwrapper.evaluation.cells import CellResult
+from skillwrapper.evaluation.figures import FIGURES, Spread, group_cells
+
+_INCHES = (7.5, 4.5)
+_DOTS_PER_INCH = 150
+
+
+def plot_experiment(cells: Sequence[CellResult], folder: Path) -> tuple[Path, ...]:
+    """Write all plots that the finished cells give something for, as PNG.
+
+    Args:
+        cells: the finished cells.
+        folder: where to write.
+
+    Returns:
+        The files written.
+
+    Raises:
+        MissingDependencyError: if matplotlib is not installed.
+    """
+    figure_of = _figure_class()
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for (domain, noise), by_method in group_cells(cells).items():
+        where = f"{domain}, noise {noise}"
+        stem = f"{domain}-{noise}"
+        curves = _learning_curves(figure_of, by_method, where)
+        if curves is not None:
+            written.append(_save(curves, folder / f"learning-{stem}.png"))
+        matrix = _problem_matrix(figure_of, by_method, where)
+        written.append(_save(matrix, folder / f"problems-{stem}.png"))
+    for domain in dict.fromkeys(c.cell.domain for c in cells):
+        mine = [c for c in cells if c.cell.domain == domain]
+        noise_curves = _noise_curves(figure_of, mine, domain)
+        if noise_curves is not None:
+            written.append(_save(noise_curves, folder / f"noise-{domain}.png"))
+    return tuple(written)
+
+
+def _figure_class() -> Any:
+    """Matplotlib's figure, without its global state and without any display."""
+    try:
+        return importlib.import_module("matplotlib.figure").Figure
+    except ImportError as error:
+        raise MissingDependencyError("matplotlib", "pip install 'skillwrapper[plot]'") from error
+
+
+def _save(figure: Any, path: Path) -> Path:
+    figure.savefig(path, dpi=_DOTS_PER_INCH)
+    return path
+
+
+def _ordered(by_method: dict[str, list[CellResult]]) -> list[tuple[str, list[CellResult]]]:
+    return [(name, by_method[name]) for name in METHODS if name in by_method]
+
+
+def _colour(method: str) -> str:
+    """The same colour for a method in every plot."""
+    return f"C{list(METHODS).index(method)}"
+
+
+def _learning_curves(
+    figure_of: Any, by_method: dict[str, list[CellResult]], where: str
+) -> Any | None:
+    """Exact recall over executions: mean, and one standard deviation as a band."""
+    learners = [(n, [c for c in cells if c.efficiency]) for n, cells in _ordered(by_method)]
+    learners = [(name, cells) for name, cells in learners if cells]
+    if not learners:
+        return None
+    figure = figure_of(figsize=_INCHES, layout="constrained")
+    axes = figure.add_subplot()
+    for name, cells in learners:
+        x, mean, std = _band(cells)
+        axes.plot(x, mean, marker=".", label=METHODS[name].title, color=_colour(name))
+        low, high = np.clip(mean - std, 0, 1), np.clip(mean + std, 0, 1)
+        axes.fill_between(x, low, high, alpha=0.12, color=_colour(name), linewidth=0)
+    axes.set(xlabel="skills executed", ylabel="exact recall", ylim=(-0.02, 1.02))
+    axes.set_title(f"What is learned from how many executions ({where})")
+    _finish(axes)
+    return figure
+
+
+def _band(cells: Sequence[CellResult]) -> tuple[Any, Any, Any]:
+    """Executions, mean and standard deviation of recall; the curves start at nothing known."""
+    curves = [[(0, 0.0)] for _ in cells]
+    for curve, cell in zip(curves, cells, strict=True):
+        points = cell.efficiency["curve"] if cell.efficiency else []
+        curve += [(point["executions"], point["recall"]) for point in points]
+    length = min(map(len, curves))
+    recall = np.array([[value for _, value in curve[:length]] for curve in curves])
+    x = np.array([executions for executions, _ in curves[0][:length]])
+    std = recall.std(axis=0, ddof=1) if len(curves) > 1 else np.zeros(length)
+    return x, recall.mean(axis=0), std
+
+
+def _problem_matrix(figure_of: Any, by_method: dict[str, list[CellResult]], where: str) -> Any:
+    """Methods by problems: the share of seeds that solved each."""
+    methods = _ordered(by_method)
+    names = [p.problem for p in methods[0][1][0].problems]
+    shares = np.array(
+        [
+            [
+                np.mean([p.solved for c in cells for p in c.problems if p.problem == n])
+                for n in names
+            ]
+            for _, cells in methods
+        ]
+    )
+    width = max(_INCHES[0], 2.5 + 0.2 * len(names))
+    figure = figure_of(figsize=(width, 2.0 + 0.3 * len(methods)), layout="constrained")
+    axes = figure.add_subplot()
+    image = axes.imshow(shares, vmin=0, vmax=1, cmap="RdYlGn", aspect="auto")
+    axes.set_yticks(range(len(methods)), [METHODS[name].title for name, _ in methods])
+    axes.set_xticks(range(len(names)), names, rotation=90, fontsize=7)
+    axes.set_title(f"Share of seeds that solved a problem ({where})")
+    figure.colorbar(image, ax=axes, fraction=0.02, pad=0.01)
+    return figure
+
+
+def _noise_curves(figure_of: Any, cells: Sequence[CellResult], domain: str) -> Any | None:
+    """Problems solved over the error rate of perception; profiles that are no rate are left out."""
+    rates = sorted({rate for c in cells if (rate := _rate(c.cell.noise)) is not None})
+    if len(rates) < 2:
+        return None
+    figure = figure_of(figsize=(_INCHES[0] * 1.4, _INCHES[1]), layout="constrained")
+    for position, kind in enumerate(("easy", "hard", "impossible"), start=1):
+        axes = figure.add_subplot(1, 3, position)
+        for name in METHODS:
+            mine = [c for c in cells if c.cell.method == name]
+            points = [(rate, _at(mine, rate, kind)) for rate in rates]
+            known = [(100 * rate, s) for rate, s in points if s is not None]
+            if known:
+                x, spreads = zip(*known, strict=True)
+                mean, std = [s.mean for s in spreads], [s.std for s in spreads]
+                label = METHODS[name].title
+                axes.errorbar(x, mean, std, marker=".", capsize=2, label=label, color=_colour(name))
+        axes.set(xlabel="wrong judgements, %", ylim=(-3, 103), title=f"{kind}, {domain}")
+    figure.axes[0].set_ylabel("solved, %")
+    _finish(figure.axes[-1])
+    return figure
+
+
+def _rate(noise: str) -> float | None:
+    try:
+        return 0.0 if noise == "none" else float(noise)
+    except ValueError:
+        return None
+
+
+def _at(cells: Sequence[CellResult], rate: float, kind: str) -> Spread | None:
+    return Spread.of(FIGURES[kind](c) for c in cells if _rate(c.cell.noise) == rate)
+
+
+def _finish(axes: Any) -> None:
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
