@@ -6,7 +6,7 @@ import sys
 
 import typer
 
-from skillwrapper.cli import domains, learning, models, planning, reporting
+from skillwrapper.cli import domains, learning, models, planning, reporting, studies
 from skillwrapper.cli.output import messages
 from skillwrapper.errors import InternalError, LimitReachedError, SkillWrapperError
 
@@ -17,7 +17,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for group in (learning, models, planning, domains, reporting):
+for group in (learning, models, planning, domains, reporting, studies):
     group.register(app)
 
 

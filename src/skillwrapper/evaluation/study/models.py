@@ -1,0 +1,107 @@
+"""The models of a study, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from skillwrapper.run.assistants import EMBEDDED, make_model
+from skillwrapper.run.config import ModelSettings
+from skillwrapper.vlm.assistant import Assistant
+from skillwrapper.vlm.embedded.model import EmbeddedModel
+from skillwrapper.vlm.models import ModelSet
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
+from skillwrapper.vlm.recorded_model import RecordedModel
+from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_model import StoredModel
+
+_REPETITIONS_A_RUN = 1000
+"""More than a question is ever repeated in one run."""
+
+
+@dataclass(frozen=True)
+class StudiedModel:
+    """A model to study.
+
+    Attributes:
+        name: as given, e.g. ``openai:gpt-5``, ``embedded`` or ``embedded:gpt5``.
+        noise: noise profile of the embedded model.
+    """
+
+    name: str
+    noise: str = "none"
+
+    @classmethod
+    def parse(cls, text: str, noise: str) -> StudiedModel:
+        """A model by name; ``embedded:PROFILE`` names its noise profile itself."""
+        kind, _, rest = text.partition(":")
+        return cls(EMBEDDED, rest or noise) if kind == EMBEDDED else cls(text)
+
+    @property
+    def is_embedded(self) -> bool:
+        """Whether it is our stand-in, of which tables must say so."""
+        return self.name == EMBEDDED
+
+    @property
+    def label(self) -> str:
+        """What it is called in tables."""
+        return f"{self.name}, noise {self.noise}" if self.is_embedded else self.name
+
+
+class _Repeated:
+    """A model that is asked everything once more, in a run of its own."""
+
+    def __init__(self, model: VisionLanguageModel, run: int) -> None:
+        self._model, self._run = model, run
+
+    @property
+    def name(self) -> str:
+        return self._model.name
+
+    @property
+    def parameters(self) -> Mapping[str, str | int | float | bool]:
+        return self._model.parameters
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        shift = self._run * _REPETITIONS_A_RUN
+        return self._model.complete(replace(request, repetition=request.repetition + shift))
+
+
+@contextmanager
+def open_studied(
+    model: StudiedModel,
+    *,
+    seed: int = 0,
+    run: int = 0,
+    calls: Path | None = None,
+    settings: AssistantSettings | None = None,
+) -> Iterator[Assistant]:
+    """An assistant that asks a model.
+
+    Args:
+        model: which one.
+        seed: of the embedded model.
+        run: number of the run, from 0; the same questions are asked anew in each.
+        calls: a store in which calls are kept and found again; None for none.
+        settings: how models are asked.
+
+    Raises:
+        UnknownNameError: if there is no such model or noise profile.
+        RunFolderError: if the store is damaged.
+    """
+    made = make_model(ModelSettings(name=model.name, noise=model.noise), model.name, seed + run)
+    with ExitStack() as resources:
+        if isinstance(made, RecordedModel):
+            resources.callback(made.close)
+        elif calls is not None:
+            made = StoredModel(made, resources.enter_context(CallStore(calls)))
+        repeated = _Repeated(made, run) if run else made
+        yield Assistant(ModelSet.of(repeated), None, settings)
+
+
+def truthful_assistant() -> Assistant:
+    """The embedded model without noise: what it reads off clean pictures counts as the truth."""
+    return Assistant(ModelSet.of(EmbeddedModel()))

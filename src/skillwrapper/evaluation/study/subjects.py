@@ -1,0 +1,251 @@
+"""What a perception study looks at: predicates, and pictures of which the truth is known."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from skillwrapper.domains.registry import domain_names, make_environment
+from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.evaluation.references import reference_of
+from skillwrapper.evaluation.study.conditions import Condition
+from skillwrapper.evaluation.study.models import truthful_assistant
+from skillwrapper.evaluation.study.scoring import Readings
+from skillwrapper.run.config import RunConfig
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.run.learned import LearnedRun
+from skillwrapper.symbols import Atom, Predicate, all_groundings
+from skillwrapper.vlm.questions import EvaluationQuestion
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.observation import Observation, load_picture
+from skillwrapper.world.types import Object
+from skillwrapper.yaml_files import YamlDocument
+
+_ATOM = re.compile(r"\s*([A-Za-z][\w-]*)\s*(?:\(([^()]*)\))?\s*")
+_LAYOUT = 424_242
+"""Seed of the arrangement of clean pictures; no run resets to it or to those that follow."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A picture to be read, and what is true in it.
+
+    Attributes:
+        observation: what is shown.
+        truth: the label of every grounding.
+    """
+
+    observation: Observation
+    truth: Readings
+
+
+class Subject:
+    """Something that can be studied.
+
+    Args:
+        domain: types, objects and skills.
+        predicates: what is read.
+        origin: where the predicates and their truth come from, for tables.
+    """
+
+    def __init__(self, domain: Domain, predicates: Sequence[Predicate], origin: str) -> None:
+        if not predicates:
+            raise ConfigurationError(f"{origin}: expected predicates to study, got none")
+        self.domain, self.predicates, self.origin = domain, tuple(predicates), origin
+
+    @property
+    def objects(self) -> tuple[Object, ...]:
+        """The objects in the pictures: all of the domain."""
+        return self.domain.objects
+
+    def supports(self, condition: Condition) -> bool:
+        """Whether pictures can be shown under a condition."""
+        return not condition.needs_simulator
+
+    def samples(self, condition: Condition) -> tuple[Sample, ...]:
+        """Pictures under a condition; the same states for every condition."""
+        raise NotImplementedError
+
+    def _labels(self, true: set[Atom]) -> dict[Atom, bool | None]:
+        return {atom: atom in true for atom in all_groundings(self.predicates, self.objects)}
+
+
+class SimulatedSubject(Subject):
+    """Pictures of sampled states of a bundled domain.
+
+    Args:
+        name: of the domain.
+        predicates: what is read.
+        truth: the true atoms of a state, or None: then what the noise-free embedded model reads
+            off the usual drawing in the same arrangement counts as the truth.
+        origin: for tables.
+        pictures: how many states are sampled.
+        seed: of the sample.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        predicates: Sequence[Predicate],
+        truth: Callable[[Any], set[Atom]] | None,
+        origin: str,
+        *,
+        pictures: int,
+        seed: int,
+    ) -> None:
+        self._name, self._truth = name, truth
+        self._usual = _enumerable(make_environment(name), name)
+        super().__init__(self._usual.domain, predicates, origin)
+        states = list(self._usual.reachable_states())
+        chance = random.Random(f"perception study {seed}")
+        self._states = chance.sample(states, min(pictures, len(states)))
+        self._seed = seed
+
+    def supports(self, condition: Condition) -> bool:
+        """Other arrangements always; other drawings if the domain has them."""
+        return not condition.drawing or condition.drawing in _DRAWINGS.get(self._name, {})
+
+    def samples(self, condition: Condition) -> tuple[Sample, ...]:
+        """The sampled states, drawn under a condition."""
+        shown = _drawn(self._name, condition) if condition.drawing else self._usual
+        pictures, plain = [], []
+        for number, state in enumerate(self._states):
+            layout = _LAYOUT + (1 + number + 100_000 * self._seed if condition.layouts else 0)
+            pictures.append(condition.apply(shown.set_state(state, seed=layout)))
+            plain.append(self._usual.set_state(state, seed=layout))
+        truths = self._truths(plain)
+        return tuple(Sample(o, t) for o, t in zip(pictures, truths, strict=True))
+
+    def _truths(self, plain: Sequence[Observation]) -> list[Readings]:
+        if self._truth is not None:
+            return [self._labels(self._truth(state)) for state in self._states]
+        questions = [
+            EvaluationQuestion(self.domain, self.objects, o, self.predicates) for o in plain
+        ]
+        return [answer.labels for answer in truthful_assistant().evaluate(questions)]
+
+
+class LabelledSubject(Subject):
+    """Pictures of one's own with the atoms that are true in them.
+
+    Args:
+        domain: types, objects and skills.
+        predicates: what is read.
+        file: YAML: the path of every picture, relative to the file, with a list of true atoms;
+            atoms that are not listed are false.
+
+    Raises:
+        ConfigurationError: if the file is not of this kind.
+        PictureError: if a picture cannot be read.
+    """
+
+    def __init__(self, domain: Domain, predicates: Sequence[Predicate], file: Path) -> None:
+        super().__init__(domain, predicates, f"labels of {file}")
+        document = YamlDocument.read(file)
+        if not isinstance(document.data, dict) or not document.data:
+            raise ConfigurationError(f"{file}: expected pictures with lists of true atoms")
+        self._samples = tuple(
+            Sample(
+                Observation((load_picture(file.parent / str(path)),)),
+                self._labels(self._true(document, path, entries)),
+            )
+            for path, entries in document.data.items()
+        )
+
+    def samples(self, condition: Condition) -> tuple[Sample, ...]:
+        """The pictures, distorted by a condition."""
+        return tuple(Sample(condition.apply(s.observation), s.truth) for s in self._samples)
+
+    def _true(self, document: YamlDocument, path: object, entries: object) -> set[Atom]:
+        place = document.place((str(path),))
+        if not isinstance(entries, list):
+            raise ConfigurationError(f"{place}: expected a list of true atoms, got {entries!r}")
+        known = {str(atom): atom for atom in all_groundings(self.predicates, self.objects)}
+        found = set()
+        for entry in entries:
+            text = str(parse_atom(str(entry), place))
+            if text not in known:
+                raise UnknownNameError("atom", text, known, place)
+            found.add(known[text])
+        return found
+
+
+def subject_of(
+    target: str, *, labels: Path | None = None, pictures: int = 40, seed: int = 0
+) -> Subject:
+    """What a target stands for.
+
+    Args:
+        target: a bundled domain (its expert's predicates, true by the simulator) or the folder of
+            a run (its learned predicates, true by the noise-free embedded model).
+        labels: pictures of one's own with their true atoms, instead of the simulator's.
+        pictures: how many states are sampled.
+        seed: of the sample.
+
+    Raises:
+        UserError: if there is no such domain or run, or the labels are not usable.
+    """
+    if Path(target).is_dir():
+        learned = LearnedRun.read(RunFolder.open(Path(target)))
+        config: RunConfig = learned.folder.config()
+        domain, predicates = learned.model.domain, learned.model.predicates
+        name, truth = config.domain, None
+        origin = f"learned predicates of {target}, true by the embedded model without noise"
+    else:
+        if target not in domain_names():
+            raise UnknownNameError("domain or folder of a run", target, domain_names())
+        reference = reference_of(target)
+        expert = reference.expert_model()
+        domain, predicates, name = expert.domain, expert.predicates, target
+        truth = _set_of(reference.expert_atoms)
+        origin = f"expert's predicates of {target}, true by the simulator"
+    if labels is not None:
+        return LabelledSubject(domain, predicates, labels)
+    return SimulatedSubject(name, predicates, truth, origin, pictures=pictures, seed=seed)
+
+
+def parse_atom(text: str, where: str) -> Atom:
+    """An atom as ``holding(robot, patty)``; one without arguments may go without parentheses.
+
+    Raises:
+        ConfigurationError: if it is none.
+    """
+    match = _ATOM.fullmatch(text)
+    if match is None:
+        raise ConfigurationError(f"{where}: expected an atom like on(patty, stove), got '{text}'")
+    return Atom(match[1], tuple(t.strip() for t in (match[2] or "").split(",") if t.strip()))
+
+
+def _set_of(atoms: Callable[[Any], Any]) -> Callable[[Any], set[Atom]]:
+    return lambda state: set(atoms(state))
+
+
+def _enumerable(environment: object, name: str) -> EnumerableEnvironment:
+    if not isinstance(environment, EnumerableEnvironment):
+        raise ConfigurationError(
+            f"{name}: its states cannot be listed; give pictures and their truth with --labels"
+        )
+    return environment
+
+
+def _drawn(name: str, condition: Condition) -> EnumerableEnvironment:
+    return _DRAWINGS[name][condition.drawing]()
+
+
+def _chalk_burger() -> EnumerableEnvironment:
+    from skillwrapper.domains.burger.environment import BurgerEnvironment  # noqa: PLC0415
+    from skillwrapper.domains.burger.style import CHALK  # noqa: PLC0415
+
+    return BurgerEnvironment(CHALK)
+
+
+# Each imports its simulator itself, as in ``domains.registry``.
+_DRAWINGS: Mapping[str, Mapping[str, Callable[[], EnumerableEnvironment]]] = MappingProxyType(
+    {"burger": MappingProxyType({"chalk": _chalk_burger})}
+)
