@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -86,11 +87,15 @@ class Explorer:
         self._settings = settings
         self._chance = np.random.default_rng(seed)
         self._successes: Counter[str] = Counter()
+        self._followed: Counter[tuple[SkillInstance, SkillInstance]] = Counter()
         self.pairs = PairCounts(domain.skill_instances, lifted=settings.pairs == "skills")
 
     def record(self, episode: Episode) -> None:
         """Take note of what was executed."""
         self.pairs.add(t.instance for t in episode.transitions)
+        self._followed.update(
+            (a.instance, b.instance) for a, b in pairwise(episode.transitions) if a.success
+        )
         self._successes.update(t.instance.skill for t in episode.transitions if t.success)
 
     def choose(self, situation: Situation) -> Choice:
@@ -110,7 +115,7 @@ class Explorer:
     def _candidates(
         self, situation: Situation, allowed: Sequence[SkillInstance]
     ) -> tuple[list[tuple[SkillInstance, ...]], tuple[str, ...]]:
-        answer = self._proposer.propose_sequences(self._question(situation))
+        answer = self._proposer.propose_sequences(self._question(situation, allowed))
         notes = list(answer.unusable)
         sequences = []
         for number, proposed in enumerate(answer.sequences[: self._settings.candidates], start=1):
@@ -125,21 +130,46 @@ class Explorer:
             sequences.append(tuple(drawn))
         return sequences, tuple(notes)
 
-    def _question(self, situation: Situation) -> ProposalQuestion:
+    def _question(self, situation: Situation, allowed: Sequence[SkillInstance]) -> ProposalQuestion:
         least = self._settings.scarce_successes
+        scarce = tuple(s.name for s in self._domain.skills if self._successes[s.name] < least)
         return ProposalQuestion(
             domain=self._domain,
             objects=situation.objects,
             observation=situation.observation,
             predicates=situation.model.predicates,
             operators=tuple(describe_operator(o) for o in situation.model.operators),
-            least_explored=self.pairs.least_explored(self._settings.named_pairs, self._chance),
-            scarce_skills=tuple(
-                s.name for s in self._domain.skills if self._successes[s.name] < least
-            ),
+            least_explored=self._least_explored(allowed, scarce),
+            scarce_skills=scarce,
             count=self._settings.candidates,
             length=self._settings.length,
         )
+
+    def _least_explored(
+        self, allowed: Sequence[SkillInstance], scarce: Sequence[str]
+    ) -> tuple[tuple[SkillInstance, SkillInstance], ...]:
+        """Pairs of which the second was run least often right after a success of the first.
+
+        Of equals, pairs that end in a scarce skill come first, then pairs about the same thing:
+        what a skill needs is mostly brought about by another one on the same object. The rest is
+        left to chance.
+        """
+        everywhere = set.intersection(*(set(i.arguments) for i in allowed)) if allowed else set()
+        pairs = [(a, b) for a in allowed for b in allowed if a != b]
+        chance = self._chance.permutation(len(pairs))
+
+        def order(number: int) -> tuple[int, bool, bool, int]:
+            first, second = pairs[number]
+            shared = set(first.arguments) & set(second.arguments) - everywhere
+            return (
+                self._followed[first, second],
+                second.skill not in scarce,
+                not shared,
+                int(chance[number]),
+            )
+
+        ranked = sorted(range(len(pairs)), key=order)
+        return tuple(pairs[n] for n in ranked[: self._settings.named_pairs])
 
     def _score(
         self, situation: Situation, sequences: Sequence[tuple[SkillInstance, ...]]
