@@ -77,14 +77,14 @@ class Notebook:
     """A data set and the truth about its pictures (``TruthSource``).
 
     Attributes:
-        asked: the predicates of every call of ``labels``, one entry a call.
+        asked: for every call of ``labels`` the names of the predicates and how many pictures.
     """
 
     def __init__(self, domain: Domain, *predicates: Predicate) -> None:
         self.domain = domain
         self.predicates = predicates
         self.dataset = Dataset(domain)
-        self.asked: list[tuple[Predicate, ...]] = []
+        self.asked: list[tuple[str, int]] = []
 
     def success(self, before: str, skill: str, after: str) -> None:
         self.episode((before, skill, True, after))
@@ -102,7 +102,7 @@ class Notebook:
         self.dataset.add(Episode(names, 0, transitions))
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
-        self.asked.append(space.predicates)
+        self.asked.append((" ".join(p.name for p in space.predicates), len(observations)))
         rows = [self._row(space, o.pictures[0].png.decode()) for o in observations]
         return np.array(rows, dtype=np.int8).reshape(len(observations), len(space.atoms))
 

@@ -10,7 +10,7 @@ from notebook import Notebook, make_domain
 
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 
-QUICK = settings(max_examples=150, deadline=None, derandomize=True)
+QUICK = settings(max_examples=100, deadline=None, derandomize=True)
 
 DOMAIN = make_domain(
     types={"robot": (), "thing": (), "food": ("thing",), "hot": ("thing",)},

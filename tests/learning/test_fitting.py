@@ -127,7 +127,7 @@ def test_only_the_labels_of_the_skills_pictures_count() -> None:
 
 def test_cost_counts_operators_and_wrong_transitions() -> None:
     notebook = some_data()
-    assert notebook.fit(EMPTY, HELD).cost == 2
+    assert notebook.fit(EMPTY, HELD).cost == 2 * fitting.OPERATOR_COST
     notebook.failure("empty(r) #2", "Take(r, b)")
     notebook.failure("empty(r) #3", "Take(r, b)")
-    assert notebook.fit(EMPTY, HELD).cost == 4
+    assert notebook.fit(EMPTY, HELD).cost == 2 * fitting.OPERATOR_COST + 2
