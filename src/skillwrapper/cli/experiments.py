@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
+from rich.console import Console, JustifyMethod
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table as RichTable
 
@@ -23,6 +23,9 @@ from skillwrapper.evaluation.running import run_experiment
 from skillwrapper.evaluation.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.tables import Report
 from skillwrapper.evaluation.workers import ERROR, CellOutcome, open_workers
+
+_WIDE = 150
+"""Columns of tables that do not go to a terminal."""
 
 FolderArgument = Annotated[Path, typer.Argument(help="Folder of an experiment.")]
 
@@ -146,10 +149,13 @@ def _describe(folder: ExperimentFolder, cell: Cell) -> str:
 
 
 def _print_report(report: Report, console: Console) -> None:
+    if not console.is_terminal:  # a file or pipe has no width that would have to be kept
+        console.width = _WIDE
     for content in report.tables():
         shown = RichTable(title=content.title, title_justify="left", box=None, pad_edge=False)
         for number, heading in enumerate(content.headings):
-            shown.add_column(heading, justify="right" if number else "left")
+            side: JustifyMethod = "right" if number else "left"
+            shown.add_column(heading, justify=side, overflow="fold")
         for row in content.rows:
             shown.add_row(*row)
         console.print(shown)

@@ -13,7 +13,7 @@ from typing import Any
 
 from skillwrapper.errors import ConfigurationError, MissingDependencyError
 from skillwrapper.evaluation.methods import Cell
-from skillwrapper.evaluation.workers import CellOutcome, Workers, work
+from skillwrapper.evaluation.workers import CellOutcome, Task, Workers, work
 
 _RETRIES = 3
 """How often Ray runs a cell again whose worker was killed."""
@@ -25,11 +25,12 @@ class RayWorkers:
     Args:
         path: folder of the experiment.
         ray: the module.
+        task: runs a cell; importable by its name on all machines.
     """
 
-    def __init__(self, path: Path, ray: Any) -> None:
+    def __init__(self, path: Path, ray: Any, task: Task = work) -> None:
         self._path, self._ray = path.resolve(), ray
-        self._task = ray.remote(num_cpus=1, max_retries=_RETRIES)(work)
+        self._task = ray.remote(num_cpus=1, max_retries=_RETRIES)(task)
         self._cells: dict[Any, Cell] = {}
 
     def submit(self, cell: Cell) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import traceback
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -41,6 +41,10 @@ class CellOutcome:
 
     cell: Cell
     error: str = ""
+
+
+Task = Callable[[Path, Cell], CellOutcome]
+"""Runs one cell of the experiment in a folder."""
 
 
 class Workers(Protocol):
@@ -120,10 +124,11 @@ class Processes:
     Args:
         path: folder of the experiment.
         count: how many at a time.
+        task: runs a cell; importable by its name.
     """
 
-    def __init__(self, path: Path, count: int) -> None:
-        self._path, self._count = path, count
+    def __init__(self, path: Path, count: int, task: Task = work) -> None:
+        self._path, self._count, self._task = path, count, task
         self._pool = self._make_pool()
         self._futures: dict[Future[CellOutcome], Cell] = {}
         self._failures: dict[Cell, int] = {}
@@ -131,10 +136,10 @@ class Processes:
     def submit(self, cell: Cell) -> None:
         """Take a cell on."""
         try:
-            self._futures[self._pool.submit(work, self._path, cell)] = cell
+            self._futures[self._pool.submit(self._task, self._path, cell)] = cell
         except BrokenProcessPool:
             self._restart()
-            self._futures[self._pool.submit(work, self._path, cell)] = cell
+            self._futures[self._pool.submit(self._task, self._path, cell)] = cell
 
     def next(self) -> CellOutcome:
         """Wait for the next cell to end."""
