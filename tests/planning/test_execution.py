@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from kitchen import STANDARD_GOALS, START, problem
+from planning_kitchen import STANDARD_GOALS, START, problem
 from PIL import Image
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment

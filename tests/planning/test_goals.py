@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kitchen import START, labels, space
+from planning_kitchen import START, labels, space
 
 from skillwrapper.errors import GoalError, UnknownNameError
 from skillwrapper.planning import goal_from_state, parse_goal

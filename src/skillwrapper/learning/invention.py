@@ -10,15 +10,15 @@ from enum import StrEnum
 from typing import Protocol
 
 from skillwrapper.learning.clusters import changed_literals
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.fitting import Fit, Fitter, SkillFit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.learning.lifted_states import lifted_state
-from skillwrapper.learning.lifting import lift_change
-from skillwrapper.learning.pruning import find_burden
+from skillwrapper.learning.lifted_states import LiftedState, lifted_state
+from skillwrapper.learning.lifting import LiftedChange, lift_change
+from skillwrapper.learning.pruning import find_burdens
 from skillwrapper.learning.settings import LearningSettings
 from skillwrapper.learning.vocabulary import Vocabulary
-from skillwrapper.symbols import AtomSpace, Labels, Predicate
+from skillwrapper.symbols import UNKNOWN, AtomSpace, Labels, Literal, Predicate
 
 _ORDER = list(InconsistencyKind)
 
@@ -68,19 +68,35 @@ class Decision:
 
 @dataclass(frozen=True)
 class _Trial:
+    """A candidate with the model that would be learned with it."""
+
     predicate: Predicate
     dormant: bool
     fit: Fit
     score: float
-    resolved: bool
+    remains: bool
+    undecided: bool
+
+    @property
+    def resolved(self) -> bool:
+        """Whether the inconsistency is gone, and not for want of a label."""
+        return not self.remains and not self.undecided
 
     def rank(self, position: int) -> tuple[int, int, int, int]:
         """Smaller is better: what is left of conditions 1 and 2 and the operators that it takes,
         what is left of the other kinds, the number of groundings to evaluate."""
-        kinds = Counter(w[0] for w in self.fit.witnesses)
-        hard = kinds[InconsistencyKind.PRECONDITION] + kinds[InconsistencyKind.EFFECT]
-        soft = sum(kinds.values()) - hard
-        return hard + len(self.fit.operators), soft, self.predicate.arity, position
+        everything = self.fit.cost
+        return self.fit.hard_cost, everything, self.predicate.arity, position
+
+    def is_worth_it(self, before: Fit, kind: InconsistencyKind) -> bool:
+        """Whether it explains at least as much as it takes.
+
+        What it leaves of the third and fourth kind counts only if one of these was asked for:
+        a good relation often has to wait for its partner (DESIGN.md D6).
+        """
+        if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT):
+            return self.fit.hard_cost <= before.hard_cost
+        return self.fit.cost <= before.cost
 
 
 class Inventor:
@@ -108,6 +124,7 @@ class Inventor:
         self._proposer = proposer
         self._settings = settings
         self._attempts: Counter[Identity] = Counter()
+        self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
 
     def invent(self) -> Fit:
         """Invent until nothing is inconsistent or every inconsistency was tried often enough.
@@ -122,11 +139,12 @@ class Inventor:
             if inconsistency is not None:
                 self._resolve(inconsistency, fit)
                 continue
-            burden = find_burden(self._fitter, self._vocabulary, retracted)
-            if burden is None:
+            burdens = find_burdens(self._fitter, self._vocabulary, retracted)
+            if not burdens:
                 break
-            retracted.add(burden)
-            self._retract(burden)
+            retracted.update(burdens)
+            for predicate in burdens:
+                self._retract(predicate)
         return self._fitter.fit(self._vocabulary.active)
 
     def unresolved(self, fit: Fit) -> tuple[Inconsistency, ...]:
@@ -151,35 +169,67 @@ class Inventor:
         reason = "it takes more operators than it explains transitions"
         self._listener(Decision(Verdict.RETRACTED, predicate, None, None, reason))
 
-    def _resolve(self, inconsistency: Inconsistency, fit: Fit) -> bool:
+    def _resolve(self, inconsistency: Inconsistency, fit: Fit) -> None:
+        """Look for a predicate among the dormant ones, then among those that the model proposes.
+
+        A candidate that takes more than it explains is postponed; the last attempt takes the
+        best of all that were postponed if nothing better came.
+        """
         attempt = self._attempts[inconsistency.identity]
         self._attempts[inconsistency.identity] += 1
-        if attempt == 0 and self._try(inconsistency, self._vocabulary.dormant, dormant=True):
-            return True
+        if attempt == 0 and self._try(inconsistency, fit, self._vocabulary.dormant, dormant=True):
+            return
         proposed = self._proposer.propose(
             inconsistency, fit.predicates, self._vocabulary.rejected, attempt
         )
         fresh = self._vocabulary.fresh(proposed)
-        return self._try(inconsistency, fresh, dormant=False)
+        if self._try(inconsistency, fit, fresh, dormant=False):
+            return
+        postponed = self._postponed.get(inconsistency.identity, ())
+        if attempt + 1 >= self._settings.attempts and postponed:
+            self._take_best(inconsistency, postponed)
 
     def _try(
-        self, inconsistency: Inconsistency, candidates: Sequence[Predicate], *, dormant: bool
+        self,
+        inconsistency: Inconsistency,
+        fit: Fit,
+        candidates: Sequence[Predicate],
+        *,
+        dormant: bool,
     ) -> bool:
-        """Keep the best of the candidates that resolve the inconsistency, if any does."""
+        """Keep the best of the candidates that resolve the inconsistency, if it is worth it."""
         promising = list(self._screen(inconsistency, candidates, dormant=dormant))
         self._label(promising)
         trials = [self._trial(inconsistency, p, dormant=dormant) for p in promising]
-        good = [
-            (t.rank(n), t)
-            for n, t in enumerate(trials)
-            if t.resolved and t.score > self._settings.threshold
-        ]
-        best = min(good, key=lambda pair: pair[0])[1] if good else None
+        good = [t for t in trials if t.resolved and t.score > self._settings.threshold]
+        worth = [t for t in good if t.is_worth_it(fit, inconsistency.kind)]
+        best = self._best(worth)
         for trial in trials:
-            self._record(inconsistency, trial, best)
+            self._record(inconsistency, trial, best, worth)
         if best is not None:
-            self._vocabulary.accept(best.predicate)
+            self._accept(best)
+        else:
+            known = self._postponed.get(inconsistency.identity, ())
+            self._postponed[inconsistency.identity] = (*known, *(t.predicate for t in good))
         return best is not None
+
+    def _take_best(self, inconsistency: Inconsistency, postponed: Sequence[Predicate]) -> None:
+        trials = [self._trial(inconsistency, p, dormant=False) for p in postponed]
+        best = self._best([t for t in trials if t.resolved])
+        if best is not None:
+            reason = "the best that came for an inconsistency"
+            self._listener(
+                Decision(Verdict.ACCEPTED, best.predicate, inconsistency, best.score, reason)
+            )
+            self._accept(best)
+
+    def _best(self, trials: Sequence[_Trial]) -> _Trial | None:
+        ranked = sorted(range(len(trials)), key=lambda n: trials[n].rank(n))
+        return trials[ranked[0]] if ranked else None
+
+    def _accept(self, trial: _Trial) -> None:
+        self._vocabulary.accept(trial.predicate)
+        self._postponed.clear()
 
     def _screen(
         self, inconsistency: Inconsistency, candidates: Sequence[Predicate], *, dormant: bool
@@ -201,25 +251,35 @@ class Inventor:
                 )
 
     def _separates(self, inconsistency: Inconsistency, predicate: Predicate) -> bool:
-        views = [
-            self._view(number, predicate, inconsistency.kind)
-            for number in (inconsistency.first, inconsistency.second)
-            if number is not None
-        ]
-        return views[0] != views[1] if len(views) == 2 else bool(views[0])
+        first, second = inconsistency.first, inconsistency.second
+        if second is None:
+            things = {term for atom in inconsistency.unexplained for term in atom.terms}
+            changed = self._changed(first, predicate)
+            return any(things.intersection(literal.atom.terms) for literal in changed)
+        if inconsistency.kind is InconsistencyKind.EFFECT:
+            return self._lifted_change(first, predicate) != self._lifted_change(second, predicate)
+        return self._start(first, predicate) != self._start(second, predicate)
 
-    def _view(self, number: int, predicate: Predicate, kind: InconsistencyKind) -> object:
-        """A transition as the predicate alone shows it: its start, or its change."""
+    def _start(self, number: int, predicate: Predicate) -> LiftedState:
+        """The start of a transition as the predicate alone shows it."""
         record = self._fitter.dataset.records[number]
         space = AtomSpace((predicate,), self._fitter.dataset.objects(record.scene))
-        transition = record.transition
-        instance = transition.instance
-        if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.DETERMINISM):
-            start = self._fitter.truth.labels(space, [transition.before])
-            return lifted_state(space, start[0], instance)
-        labels = self._fitter.truth.labels(space, [transition.before, transition.after])
-        change: Labels = (labels[1] - labels[0]) * (labels >= 0).all(axis=0)
-        return lift_change(changed_literals(space, change), instance.arguments).change
+        labels = self._fitter.truth.labels(space, [record.transition.before])
+        return lifted_state(space, labels[0], record.transition.instance)
+
+    def _lifted_change(self, number: int, predicate: Predicate) -> LiftedChange:
+        """The change around the arguments as the predicate alone shows it."""
+        arguments = self._fitter.dataset.records[number].transition.instance.arguments
+        return lift_change(self._changed(number, predicate), arguments).change
+
+    def _changed(self, number: int, predicate: Predicate) -> list[Literal]:
+        """What is known to have changed, as the predicate alone shows it."""
+        record = self._fitter.dataset.records[number]
+        space = AtomSpace((predicate,), self._fitter.dataset.objects(record.scene))
+        pictures = [record.transition.before, record.transition.after]
+        labels = self._fitter.truth.labels(space, pictures)
+        change: Labels = (labels[1] - labels[0]) * (labels != UNKNOWN).all(axis=0)
+        return changed_literals(space, change)
 
     def _label(self, predicates: Sequence[Predicate]) -> None:
         """Label all pictures for all candidates in one go."""
@@ -233,20 +293,46 @@ class Inventor:
         self, inconsistency: Inconsistency, predicate: Predicate, *, dormant: bool
     ) -> _Trial:
         fit = self._fitter.fit(self._vocabulary.with_candidate(predicate))
-        score = fit.skills[inconsistency.skill].score(inconsistency.kind)
-        resolved = inconsistency.witness not in fit.witnesses
-        return _Trial(predicate, dormant, fit, score, resolved)
+        skill = fit.skills[inconsistency.skill]
+        return _Trial(
+            predicate,
+            dormant,
+            fit,
+            skill.score(inconsistency.kind),
+            remains=inconsistency.witness in fit.witnesses,
+            undecided=not self._decides_one(inconsistency, skill),
+        )
 
-    def _record(self, inconsistency: Inconsistency, trial: _Trial, best: _Trial | None) -> None:
+    def _decides_one(self, inconsistency: Inconsistency, fit: SkillFit) -> bool:
+        """Whether a transition of the same cause is no longer wrong and hangs on no unknown."""
+        now = self._fitter.fit(self._vocabulary.active).skills[inconsistency.skill]
+        left = {i.witness for i in fit.inconsistencies}
+        return any(
+            i.witness not in left and i.culprit not in fit.undecided
+            for i in now.inconsistencies
+            if i.identity == inconsistency.identity
+        )
+
+    def _record(
+        self,
+        inconsistency: Inconsistency,
+        trial: _Trial,
+        best: _Trial | None,
+        worth: Sequence[_Trial],
+    ) -> None:
         if trial is best:
             verdict = Verdict.REVIVED if trial.dormant else Verdict.ACCEPTED
             reason = "resolves the inconsistency"
         else:
             verdict = Verdict.REJECTED
-            if not trial.resolved:
+            if trial.remains:
                 reason = "the inconsistency remains"
+            elif trial.undecided:
+                reason = "its labels of what is inconsistent are unknown"
             elif trial.score <= self._settings.threshold:
                 reason = f"score {trial.score:.2f} is not above {self._settings.threshold:.2f}"
+            elif trial not in worth:
+                reason = "it takes more operators than it explains transitions"
             else:
                 reason = "another candidate leaves less unexplained"
             if not trial.dormant:

@@ -26,25 +26,28 @@ def prune(fitter: Fitter, vocabulary: Vocabulary) -> tuple[Pruned, ...]:
     return (*_merge(fitter, vocabulary), *_drop_superfluous(fitter, vocabulary))
 
 
-def find_burden(
+def find_burdens(
     fitter: Fitter, vocabulary: Vocabulary, spared: Collection[Predicate] = ()
-) -> Predicate | None:
-    """The predicate without which operators and inconsistencies together become fewest.
+) -> tuple[Predicate, ...]:
+    """The predicates without which it takes least to account for the data.
 
     A predicate that says nothing of a skill splits its successes into many small clusters, each
-    with an operator that fits its few transitions and no other: consistent, and useless.
+    with an operator that fits its few transitions and no other: consistent, and useless. Several
+    of them hide each other, so predicates are left out one after the other, the cheapest to lose
+    first, and the best vocabulary on the way is compared with the present one.
 
     Returns:
-        None if no predicate, save the spared ones, is such a burden.
+        Nothing if every predicate, save the spared ones, is worth what it takes.
     """
-    fit = fitter.fit(vocabulary.active)
-    best, lowest = None, fit.cost
-    for predicate in vocabulary.active:
-        if predicate not in spared:
-            cost = fitter.fit([p for p in vocabulary.active if p != predicate]).cost
-            if cost < lowest:
-                best, lowest = predicate, cost
-    return best
+    remaining = list(vocabulary.active)
+    lowest, best = fitter.fit(remaining).cost, tuple(remaining)
+    while left := [p for p in remaining if p not in spared]:
+        costs = {p: fitter.fit([q for q in remaining if q != p]).cost for p in left}
+        cheapest = min(reversed(left), key=lambda p: costs[p])
+        remaining.remove(cheapest)
+        if costs[cheapest] < lowest:
+            lowest, best = costs[cheapest], tuple(remaining)
+    return tuple(p for p in vocabulary.active if p not in best)
 
 
 def _merge(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
@@ -67,6 +70,7 @@ def _relation(fitter: Fitter, first: Predicate, second: Predicate) -> str:
     """``"synonym"``, ``"antonym"`` or nothing."""
     if first.types != second.types:
         return ""
+    compared = 0
     equal = opposite = True
     for scene in fitter.dataset.scenes:
         objects = fitter.dataset.objects(scene)
@@ -74,8 +78,11 @@ def _relation(fitter: Fitter, first: Predicate, second: Predicate) -> str:
         a = fitter.truth.labels(AtomSpace((first,), objects), observations)
         b = fitter.truth.labels(AtomSpace((second,), objects), observations)
         known = (a != UNKNOWN) & (b != UNKNOWN)
+        compared += int(known.sum())
         equal &= bool(np.array_equal(a[known], b[known]))
         opposite &= bool(np.array_equal(a[known], 1 - b[known]))
+    if not compared:
+        return ""
     return "synonym" if equal else "antonym" if opposite else ""
 
 
@@ -105,4 +112,6 @@ def _usage(fit: Fit) -> Counter[str]:
         use.update(literal.atom.predicate for literal in operator.preconditions)
         use.update(absence.atom.predicate for absence in operator.absences)
         use.update(atom.predicate for atom in operator.add_effects | operator.delete_effects)
+        for effect in operator.conditional_effects:
+            use.update(literal.atom.predicate for literal in (*effect.condition, effect.effect))
     return use

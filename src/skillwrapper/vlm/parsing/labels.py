@@ -108,7 +108,7 @@ def parse_labels(reply: str, atoms: Sequence[Atom]) -> ParsedLabels:
     said: dict[Atom, set[bool | None]] = {}
     unusable: list[str] = []
     lines = list(_after_plain_lines(plain_lines(flatten_json(reply)), finder, said))
-    for line, call, verdicts in _judgements(lines, finder.nullary):
+    for line, call, verdicts in _judgements(lines, finder):
         atom = finder.find(call)
         if atom is None:
             unusable.append(f"{call}: not asked for, or not clear what is meant")
@@ -140,9 +140,12 @@ def _after_plain_lines(
 
 
 def _judgements(
-    lines: Iterable[str], nullary: frozenset[str]
+    lines: Iterable[str], finder: _AtomFinder
 ) -> Iterator[tuple[str, Call, list[bool | None]]]:
-    """Every call in the reply with the verdicts that belong to it."""
+    """Every call in the reply with the verdicts that belong to it.
+
+    ``true(ly)`` is no call, but ``holds(robot, cup)`` is one if ``holds`` was asked for.
+    """
     heading: list[bool | None] = []
     for raw in lines:
         line = without_lead(raw)
@@ -150,8 +153,12 @@ def _judgements(
         if title:
             heading = [_heading_verdict(title.group(1))]
             continue
-        calls = [c for c in find_calls(line) if c.name.casefold() not in _VERDICTS]
-        calls = calls or _nullary(line, nullary)
+        calls = [
+            call
+            for call in find_calls(line)
+            if call.name.casefold() not in _VERDICTS or fold(call.name) in finder.names
+        ]
+        calls = calls or _nullary(line, finder.nullary)
         if not calls and line.endswith(":"):
             heading = []
         shared = _shared_verdict(line, calls)
@@ -222,6 +229,7 @@ class _AtomFinder:
 
     def __init__(self, atoms: Sequence[Atom]) -> None:
         self.by_text = {str(a): a for a in atoms}
+        self.names = frozenset(fold(a.predicate) for a in atoms)
         self.nullary = frozenset(fold(a.predicate) for a in atoms if not a.terms)
         self._exact = {(a.predicate, a.terms): a for a in atoms}
         self._predicates = NameIndex(a.predicate for a in atoms)
