@@ -102,6 +102,7 @@ def test_no_inconsistency_rests_on_an_unknown_label() -> None:
     for _ in range(2):
         notebook.success("on(a, x)", "Take(r, a)", "holds(r, a) free(x)")
     notebook.success("on(b, y)", "Take(r, b)", "holds(r, b) ?free(y)")
+    notebook.success("on(b, y)", "Take(r, b)", "on(b, y) ?holds(r, b)")
     assert notebook.fit().inconsistencies == ()
     notebook.success("on(b, y)", "Take(r, b)", "holds(r, b)")
     assert {i.kind for i in notebook.fit().inconsistencies} == {InconsistencyKind.DETERMINISM}

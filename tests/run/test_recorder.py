@@ -158,6 +158,20 @@ def test_an_environment_that_goes_another_way_is_refused(folder: RunFolder, doma
     assert folder.episode(1).read_bytes() == before
 
 
+def test_an_environment_that_looks_otherwise_on_the_way_is_refused(
+    folder: RunFolder, domain: Domain
+) -> None:
+    crash_after(folder, domain, 1)
+
+    class Repainted(LampEnvironment):
+        def execute(self, instance: SkillInstance):
+            self._seed = 99
+            return super().execute(instance)
+
+    with pytest.raises(RobotError, match=r"Light\(hand, left\) went another way"):
+        Run(folder, Repainted(domain))()
+
+
 def test_what_cannot_be_repeated_ends_where_the_record_ends(
     folder: RunFolder, domain: Domain
 ) -> None:

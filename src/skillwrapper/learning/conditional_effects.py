@@ -183,19 +183,16 @@ def _find_rule(
 def _cases(group: Group, patterns: Sequence[Pattern], change: SignedPattern) -> Iterator[_Case]:
     """Every object that is no argument, in every different state before the group's transitions.
 
-    An object with an unknown label is no evidence (DESIGN.md D10).
+    Of objects that changed, all labels are known: else the group would have founded no cluster.
     """
     became, wanted = change
     signed = group.table.change()[group.rows[0]]
-    undetermined = group.table.undetermined()[group.rows]
     for other in group.table.space.objects:
         columns = _columns(group, patterns, other.name)
         if other.name in group.instance.arguments or wanted not in columns:
             continue
-        own = list(columns.values())
-        states = group.before[:, own][~undetermined[:, own].any(axis=1)]
         did = bool(signed[columns[wanted]] == (1 if became else -1))
-        for state in np.unique(states, axis=0):
+        for state in np.unique(group.before[:, list(columns.values())], axis=0):
             held = (p for p, label in zip(columns, state, strict=True) if label == TRUE)
             yield _Case(frozenset(held), frozenset(other.types), did)
 
