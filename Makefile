@@ -4,6 +4,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 DEMO_DIR ?= runs/demo
+DEMO_SEED ?= 4
 
 .PHONY: setup demo test lint types tests benchmark clean
 
@@ -17,7 +18,16 @@ setup: .venv/.installed
 	@touch $@
 
 demo: setup
-	$(BIN)/python -m skillwrapper.cli.demo $(DEMO_DIR)
+	$(BIN)/skillwrapper learn burger --out $(DEMO_DIR) --seed $(DEMO_SEED) --iterations 10 --budget 30
+	$(BIN)/skillwrapper verify $(DEMO_DIR)
+	$(BIN)/skillwrapper render burger --state examples/burger/finished.yaml --seed 7 --out $(DEMO_DIR)/goal.png
+	$(BIN)/skillwrapper solve $(DEMO_DIR) --init-seed 77 --goal $(DEMO_DIR)/goal.png
+	$(BIN)/skillwrapper report $(DEMO_DIR)
+	@echo
+	@echo "what was learned:  $(BIN)/skillwrapper show $(DEMO_DIR)"
+	@echo "PDDL domain:       $(DEMO_DIR)/model/domain.pddl"
+	@echo "the burger:        $(DEMO_DIR)/solve.gif"
+	@echo "report:            $(DEMO_DIR)/report.html"
 
 test: lint types tests
 

@@ -106,7 +106,7 @@ def main() -> None:
         first = first or seconds
         growth = (seconds / first) / (size / SIZES[0])
         print(
-            f"{size:7d} transitions  operators {seconds:5.2f} s  with all checks {complete:5.2f} s  "
+            f"{size:7d} transitions  operators {seconds:5.2f} s  all checks {complete:5.2f} s  "
             f"{wrong} inconsistencies  time a transition, first row = 1: {growth:.2f}"
         )
 

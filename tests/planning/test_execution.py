@@ -4,8 +4,8 @@ import json
 from pathlib import Path
 
 import pytest
-from planning_kitchen import STANDARD_GOALS, START, problem
 from PIL import Image
+from planning_kitchen import STANDARD_GOALS, START, problem
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.planning import Planner, SkillPlan, attempt, save_gif

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from planning_kitchen import STANDARD_GOALS, START, ground_model, labels, problem, run, space
 from kstar_planner import planners
+from planning_kitchen import STANDARD_GOALS, START, ground_model, labels, problem, run, space
 from pydantic import ValidationError
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment

@@ -15,6 +15,7 @@ from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import EnumerableEnvironment, Environment
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.skills import SkillInstance, parse_skill_instance
+from skillwrapper.yaml_files import YamlDocument
 
 
 def register(app: typer.Typer) -> None:
@@ -49,7 +50,8 @@ def render(
     out: Annotated[Path, typer.Option(help="The PNG file to write.")],
     seed: Annotated[int, typer.Option(min=0, help="Chooses the layout.")] = 0,
     state: Annotated[
-        int | None, typer.Option(min=0, help="Number of a reachable state; default: the start.")
+        str | None,
+        typer.Option(help="A YAML file of a state, or the number of a reachable one."),
     ] = None,
     skills: Annotated[
         list[str] | None,
@@ -79,13 +81,17 @@ def render(
         results().print(f"wrote {out}", markup=False)
 
 
-def _set_state(environment: Environment, number: int, seed: int) -> Observation:
+def _set_state(environment: Environment, text: str, seed: int) -> Observation:
+    """Put the environment into a state that a number or a file names."""
     if not isinstance(environment, EnumerableEnvironment):
         raise ConfigurationError(f"--state: the states of {environment.domain.name} are not known")
+    if not text.isdigit():
+        document = YamlDocument.read(Path(text))
+        return environment.set_state(environment.state_from_data(document.data), seed=seed)
     states = environment.reachable_states()
-    if number >= len(states):
-        raise ConfigurationError(f"--state: expected 0 to {len(states) - 1}, got {number}")
-    return environment.set_state(states[number], seed=seed)
+    if int(text) >= len(states):
+        raise ConfigurationError(f"--state: expected 0 to {len(states) - 1}, got {text}")
+    return environment.set_state(states[int(text)], seed=seed)
 
 
 def _parse_instance(domain: Domain, text: str) -> SkillInstance:
