@@ -283,6 +283,21 @@ def test_what_does_not_touch_the_unexplained_object_is_no_candidate() -> None:
     assert study.decisions[0].reason == "does not tell the two transitions apart"
 
 
+def test_what_takes_more_than_it_explains_is_kept_only_if_nothing_better_comes() -> None:
+    """``near`` explains the failure, but makes of one operator five."""
+    for better, kept in (([EMPTY], ["held", "empty"]), ([], ["held", "near"])):
+        notebook = Notebook(KITCHEN)
+        for number, after in enumerate(("", "near(a, x)", "near(a, y)", "near(a, x) near(a, y)")):
+            notebook.success(f"empty(r) near(a, x) #{number}", "Take(r, a)", f"held(a) {after}")
+        notebook.failure("", "Take(r, a)")
+        study = Study(notebook, [NEAR], better, active=[HELD], attempts=2)
+        study.inventor.invent()
+        names = study.verdicts(Verdict.ACCEPTED)
+        assert ["held", *names] == kept
+        assert study.decisions[0].verdict is Verdict.REJECTED
+        assert study.decisions[0].reason == "it takes more operators than it explains transitions"
+
+
 def test_a_predicate_that_only_splits_the_data_is_taken_back() -> None:
     notebook = Notebook(KITCHEN)
     for number, (before, after) in enumerate(

@@ -111,8 +111,9 @@ def test_rejections_lapse_when_the_vocabulary_changes() -> None:
     assert words.dormant == (HELD,)
 
 
-def test_a_retracted_one_is_all_that_is_rejected() -> None:
-    words = vocabulary(HELD)
+def test_retracted_ones_are_all_that_is_rejected() -> None:
+    other, kept = Predicate("other", ()), Predicate("kept", ())
+    words = vocabulary(HELD, kept, other)
     words.reject(CLEAN_CUP)
-    words.retract(HELD)
-    assert (words.active, words.dormant, words.rejected) == ((), (), (HELD,))
+    words.retract([HELD, other])
+    assert (words.active, words.dormant, words.rejected) == ((kept,), (), (HELD, other))

@@ -143,8 +143,7 @@ class Inventor:
             if not burdens:
                 break
             retracted.update(burdens)
-            for predicate in burdens:
-                self._retract(predicate)
+            self._retract(burdens)
         return self._fitter.fit(self._vocabulary.active)
 
     def unresolved(self, fit: Fit) -> tuple[Inconsistency, ...]:
@@ -163,11 +162,12 @@ class Inventor:
             default=None,
         )
 
-    def _retract(self, predicate: Predicate) -> None:
-        self._vocabulary.retract(predicate)
+    def _retract(self, predicates: Sequence[Predicate]) -> None:
+        self._vocabulary.retract(predicates)
         self._attempts.clear()
         reason = "it takes more operators than it explains transitions"
-        self._listener(Decision(Verdict.RETRACTED, predicate, None, None, reason))
+        for predicate in predicates:
+            self._listener(Decision(Verdict.RETRACTED, predicate, None, None, reason))
 
     def _resolve(self, inconsistency: Inconsistency, fit: Fit) -> None:
         """Look for a predicate among the dormant ones, then among those that the model proposes.
@@ -214,13 +214,13 @@ class Inventor:
         return best is not None
 
     def _take_best(self, inconsistency: Inconsistency, postponed: Sequence[Predicate]) -> None:
-        trials = [self._trial(inconsistency, p, dormant=False) for p in postponed]
+        asleep = self._vocabulary.dormant
+        trials = [self._trial(inconsistency, p, dormant=p in asleep) for p in postponed]
         best = self._best([t for t in trials if t.resolved])
         if best is not None:
+            verdict = Verdict.REVIVED if best.dormant else Verdict.ACCEPTED
             reason = "the best that came for an inconsistency"
-            self._listener(
-                Decision(Verdict.ACCEPTED, best.predicate, inconsistency, best.score, reason)
-            )
+            self._listener(Decision(verdict, best.predicate, inconsistency, best.score, reason))
             self._accept(best)
 
     def _best(self, trials: Sequence[_Trial]) -> _Trial | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
 from skillwrapper.symbols import Predicate
@@ -56,10 +56,10 @@ class Vocabulary:
         self.dormant = (*self.dormant, predicate)
         self.rejected = ()
 
-    def retract(self, predicate: Predicate) -> None:
-        """Take an accepted predicate back: it counts as rejected, all other rejections lapse."""
-        self.active = tuple(p for p in self.active if p != predicate)
-        self.rejected = (predicate,)
+    def retract(self, predicates: Collection[Predicate]) -> None:
+        """Take accepted predicates back: they count as rejected, all other rejections lapse."""
+        self.active = tuple(p for p in self.active if p not in predicates)
+        self.rejected = tuple(predicates)
 
     def _reconcile(self, predicate: Predicate) -> Predicate:
         """Resolve a clash of names: widen the types if possible, else rename."""
