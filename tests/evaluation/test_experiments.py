@@ -125,6 +125,17 @@ def test_folder_with_something_else(tmp_path: Path, file: Path) -> None:
         ExperimentFolder.open(tmp_path / "mine")
 
 
+def test_only_one_process_at_a_time(folder: ExperimentFolder) -> None:
+    with (
+        folder.reserved(),
+        pytest.raises(RunFolderError, match="another process is running this experiment"),
+        ExperimentFolder.open(folder.path).reserved(),
+    ):
+        pytest.fail("reserved twice")
+    with folder.reserved():
+        pass
+
+
 def test_damaged_result(folder: ExperimentFolder) -> None:
     cell = folder.experiment().cells[0]
     folder.cell(cell).mkdir(parents=True)

@@ -63,7 +63,7 @@ def run(
     cells = len(folder.experiment().cells)
     opened = open_ray_workers(out, ray) if ray is not None else open_workers(out, workers)
     console = messages()
-    with opened as team, _progress(console) as progress:
+    with folder.reserved(), opened as team, _progress(console) as progress:
         ended = _watch(progress, console, cells, folder)
         outcomes = run_experiment(folder, team, ended=ended)
     failed = [outcome for outcome in outcomes if outcome.error]

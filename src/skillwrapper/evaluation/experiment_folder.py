@@ -8,7 +8,9 @@ truth/                  labels of predicates in all states, shared by all cells
 
 from __future__ import annotations
 
+import fcntl
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,6 +29,7 @@ from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.yaml_files import YamlDocument
 
 _EXPERIMENT = "experiment.yaml"
+_LOCK = ".lock"
 
 
 @dataclass(frozen=True)
@@ -112,6 +115,23 @@ class ExperimentFolder:
         for cell in self.experiment().cells:
             if self.is_finished(cell):
                 yield CellResult.read(self.cell(cell))
+
+    @contextmanager
+    def reserved(self) -> Iterator[None]:
+        """Keep others from running the same experiment here; ends with the process at the latest.
+
+        Raises:
+            RunFolderError: if another process is at it.
+        """
+        with (self.path / _LOCK).open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError as error:
+                raise RunFolderError(
+                    f"{self.path}: another process is running this experiment; wait for it, "
+                    "or choose another --out"
+                ) from error
+            yield
 
     def _compare(self, experiment: Experiment, sets: dict[str, ProblemSet]) -> None:
         mine = self.experiment().model_dump(mode="json")
