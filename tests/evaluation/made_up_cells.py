@@ -49,7 +49,7 @@ def made_up_cell(
         for number, (kind, done) in enumerate(zip(kinds, solved, strict=True))
     )
     exact = {"precision": 1.0, "recall": recall, "effect_accuracy": 1.0}
-    point = {"executions": 10, "recall": recall}
+    point = {"executions": 10, "recall": recall, "precision": 1.0}
     efficiency = {"area": 0.25, "changing": 0.1, "pairs_covered": 0.2, "curve": [point]}
     return CellResult(
         cell=Cell(method, "burger", seed, noise),

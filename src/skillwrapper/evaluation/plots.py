@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from skillwrapper.evaluation.cells import CellResult
 from skillwrapper.evaluation.figures import FIGURES, Spread, group_cells
 
 _INCHES = (7.5, 4.5)
+_WIDE_INCHES = (11.0, 4.5)
 _DOTS_PER_INCH = 150
 
 
@@ -67,49 +69,59 @@ def _ordered(by_method: dict[str, list[CellResult]]) -> list[tuple[str, list[Cel
     return [(name, by_method[name]) for name in METHODS if name in by_method]
 
 
-def _colour(method: str) -> str:
-    """The same colour for a method in every plot."""
-    return f"C{list(METHODS).index(method)}"
+def _style(method: str) -> dict[str, Any]:
+    """The same line for a method in every plot; lines that coincide can still be told apart."""
+    number = list(METHODS).index(method)
+    return {
+        "color": f"C{number}",
+        "linestyle": ("-", "--", "-.", ":")[number % 4],
+        "marker": "osv^D"[number % 5],
+        "markersize": 4,
+        "alpha": 0.85,
+    }
 
 
 def _learning_curves(
     figure_of: Any, by_method: dict[str, list[CellResult]], where: str
 ) -> Any | None:
-    """Exact recall over executions: mean, and one standard deviation as a band."""
+    """Exact recall and precision over executions: mean, one standard deviation as a band.
+
+    Recall alone would praise operators without preconditions, which "apply" everywhere.
+    """
     learners = [(n, [c for c in cells if c.efficiency]) for n, cells in _ordered(by_method)]
     learners = [(name, cells) for name, cells in learners if cells]
     if not learners:
         return None
-    figure = figure_of(figsize=_INCHES, layout="constrained")
-    axes = figure.add_subplot()
-    for name, cells in learners:
-        x, mean, std = _band(cells)
-        axes.plot(x, mean, marker=".", label=METHODS[name].title, color=_colour(name))
-        low, high = np.clip(mean - std, 0, 1), np.clip(mean + std, 0, 1)
-        axes.fill_between(x, low, high, alpha=0.12, color=_colour(name), linewidth=0)
-    axes.set(xlabel="skills executed", ylabel="exact recall", ylim=(-0.02, 1.02))
-    axes.set_title(f"What is learned from how many executions ({where})")
-    _finish(axes)
+    figure = figure_of(figsize=_WIDE_INCHES, layout="constrained")
+    figure.suptitle(f"What is learned from how many executions ({where})")
+    for position, key in enumerate(("recall", "precision"), start=1):
+        axes = figure.add_subplot(1, 2, position)
+        for name, cells in learners:
+            x, mean, std = _band(cells, key)
+            axes.plot(x, mean, label=METHODS[name].title, **_style(name))
+            low, high = np.clip(mean - std, 0, 1), np.clip(mean + std, 0, 1)
+            axes.fill_between(x, low, high, alpha=0.12, color=_style(name)["color"], linewidth=0)
+        axes.set(xlabel="skills executed", ylabel=f"exact {key}", ylim=(-0.02, 1.02))
+        axes.grid(alpha=0.3)
+    _add_legend(figure)
     return figure
 
 
-def _band(cells: Sequence[CellResult]) -> tuple[Any, Any, Any]:
-    """Executions, mean and standard deviation of recall; the curves start at nothing known."""
-    curves = [[(0, 0.0)] for _ in cells]
-    for curve, cell in zip(curves, cells, strict=True):
-        points = cell.efficiency["curve"] if cell.efficiency else []
-        curve += [(point["executions"], point["recall"]) for point in points]
+def _band(cells: Sequence[CellResult], key: str) -> tuple[Any, Any, Any]:
+    """Executions, mean and standard deviation of a figure of the learning curves."""
+    curves = [cell.efficiency["curve"] for cell in cells if cell.efficiency]
     length = min(map(len, curves))
-    recall = np.array([[value for _, value in curve[:length]] for curve in curves])
-    x = np.array([executions for executions, _ in curves[0][:length]])
-    std = recall.std(axis=0, ddof=1) if len(curves) > 1 else np.zeros(length)
-    return x, recall.mean(axis=0), std
+    values = np.array([[point[key] for point in curve[:length]] for curve in curves])
+    x = np.array([point["executions"] for point in curves[0][:length]])
+    std = values.std(axis=0, ddof=1) if len(curves) > 1 else np.zeros(length)
+    return x, values.mean(axis=0), std
 
 
 def _problem_matrix(figure_of: Any, by_method: dict[str, list[CellResult]], where: str) -> Any:
     """Methods by problems: the share of seeds that solved each."""
     methods = _ordered(by_method)
-    names = [p.problem for p in methods[0][1][0].problems]
+    problems = methods[0][1][0].problems
+    names = [p.problem for p in problems]
     shares = np.array(
         [
             [
@@ -122,9 +134,12 @@ def _problem_matrix(figure_of: Any, by_method: dict[str, list[CellResult]], wher
     width = max(_INCHES[0], 2.5 + 0.2 * len(names))
     figure = figure_of(figsize=(width, 2.0 + 0.3 * len(methods)), layout="constrained")
     axes = figure.add_subplot()
-    image = axes.imshow(shares, vmin=0, vmax=1, cmap="RdYlGn", aspect="auto")
+    image = axes.imshow(shares, vmin=0, vmax=1, cmap="cividis", aspect="auto")
     axes.set_yticks(range(len(methods)), [METHODS[name].title for name, _ in methods])
     axes.set_xticks(range(len(names)), names, rotation=90, fontsize=7)
+    for number, (before, after) in enumerate(pairwise(problems)):
+        if before.kind != after.kind:
+            axes.axvline(number + 0.5, color="white", linewidth=3)
     axes.set_title(f"Share of seeds that solved a problem ({where})")
     figure.colorbar(image, ax=axes, fraction=0.02, pad=0.01)
     return figure
@@ -135,7 +150,8 @@ def _noise_curves(figure_of: Any, cells: Sequence[CellResult], domain: str) -> A
     rates = sorted({rate for c in cells if (rate := _rate(c.cell.noise)) is not None})
     if len(rates) < 2:
         return None
-    figure = figure_of(figsize=(_INCHES[0] * 1.4, _INCHES[1]), layout="constrained")
+    figure = figure_of(figsize=_WIDE_INCHES, layout="constrained")
+    figure.suptitle(f"Problems solved with wrong perception ({domain})")
     for position, kind in enumerate(("easy", "hard", "impossible"), start=1):
         axes = figure.add_subplot(1, 3, position)
         for name in METHODS:
@@ -146,10 +162,11 @@ def _noise_curves(figure_of: Any, cells: Sequence[CellResult], domain: str) -> A
                 x, spreads = zip(*known, strict=True)
                 mean, std = [s.mean for s in spreads], [s.std for s in spreads]
                 label = METHODS[name].title
-                axes.errorbar(x, mean, std, marker=".", capsize=2, label=label, color=_colour(name))
-        axes.set(xlabel="wrong judgements, %", ylim=(-3, 103), title=f"{kind}, {domain}")
+                axes.errorbar(x, mean, std, capsize=2, label=label, **_style(name))
+        axes.set(xlabel="wrong judgements, %", ylim=(-3, 103), title=kind)
+        axes.grid(alpha=0.3)
     figure.axes[0].set_ylabel("solved, %")
-    _finish(figure.axes[-1])
+    _add_legend(figure)
     return figure
 
 
@@ -164,6 +181,6 @@ def _at(cells: Sequence[CellResult], rate: float, kind: str) -> Spread | None:
     return Spread.of(FIGURES[kind](c) for c in cells if _rate(c.cell.noise) == rate)
 
 
-def _finish(axes: Any) -> None:
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False)
+def _add_legend(figure: Any) -> None:
+    lines, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(lines, labels, fontsize=7, loc="outside right center", frameon=False)
