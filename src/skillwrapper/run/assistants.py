@@ -2,26 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import threading
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 from skillwrapper.errors import UnknownNameError
 from skillwrapper.run.config import ModelSettings, RunConfig
 from skillwrapper.run.events import RunEvent
 from skillwrapper.run.folder import RunFolder
 from skillwrapper.vlm.assistant import Assistant
-from skillwrapper.vlm.embedded.model import EmbeddedModel
-from skillwrapper.vlm.embedded.noise import noise_profile
+from skillwrapper.vlm.limits import CallBudget, CallLimits
 from skillwrapper.vlm.models import ModelSet
+from skillwrapper.vlm.opening import CallKeeping, ModelOptions, keep_calls, open_model
 from skillwrapper.vlm.prompt_library import PromptLibrary
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, VisionLanguageModel
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    Role,
+    TakesBack,
+    VisionLanguageModel,
+)
 from skillwrapper.vlm.recorded_model import RecordedModel
+from skillwrapper.vlm.retrying import RetryPolicy
 from skillwrapper.vlm.store import CallStore
-from skillwrapper.vlm.stored_model import StoredModel
 
 EMBEDDED = "embedded"
+_KINDS: Mapping[str, str] = MappingProxyType(
+    {"embedded": "embedded", "openai": "openai:NAME", "recorded": "recorded:DIR"}
+)
+
+
+@dataclass(frozen=True)
+class Spending:
+    """What a run may spend on calls; nothing here changes what is learned.
+
+    Attributes:
+        limits: after which the run stops.
+        shared: file of a call store that several runs share; made if it does not exist.
+        policy: how often calls are repeated that fail in passing.
+    """
+
+    limits: CallLimits = field(default_factory=CallLimits)
+    shared: Path | None = None
+    policy: RetryPolicy = field(default_factory=RetryPolicy)
 
 
 @dataclass
@@ -30,17 +56,25 @@ class Session:
 
     Attributes:
         assistant: asks them.
+        budget: counts the calls that were made, not those served from a store.
         iteration: the present iteration of the run, from 1; None before the first.
         calls: how many calls were answered so far, from a store or not.
     """
 
     assistant: Assistant = field(init=False)
+    budget: CallBudget = field(default_factory=CallBudget)
     iteration: int | None = None
     calls: int = 0
+    _lock: threading.Lock = field(default_factory=threading.Lock, repr=False)
 
     def note(self, event: RunEvent) -> None:
         """Take note of an event of the run."""
         self.iteration = event.iteration
+
+    def count_call(self) -> None:
+        """Count a call; may be used from several threads."""
+        with self._lock:
+            self.calls += 1
 
 
 class _Counted:
@@ -51,13 +85,21 @@ class _Counted:
         self.name, self.parameters = model.name, model.parameters
 
     def complete(self, request: ModelRequest) -> ModelReply:
-        self._session.calls += 1
+        self._session.count_call()
         return self._model.complete(request)
+
+    def take_back(self, request: ModelRequest) -> None:
+        if isinstance(self._model, TakesBack):
+            self._model.take_back(request)
 
 
 @contextmanager
 def open_assistant(
-    config: RunConfig, folder: RunFolder, *, learning: bool = True
+    config: RunConfig,
+    folder: RunFolder,
+    *,
+    learning: bool = True,
+    spending: Spending | None = None,
 ) -> Iterator[Session]:
     """The assistant of a run.
 
@@ -66,43 +108,85 @@ def open_assistant(
         folder: of the run; its store serves what was asked before.
         learning: False for using what was learned: then the embedded model, which costs
             nothing, is asked without keeping its replies.
+        spending: limits, repetitions and a store shared with other runs; None for the defaults.
 
     Raises:
-        UnknownNameError: if there is no such model.
-        RunFolderError: if the store is damaged.
+        ConfigurationError: if there is no such model, or a setting makes no sense.
+        ProviderError: if a key is missing.
+        RunFolderError: if a store is damaged.
     """
-    settings, session = config.model, Session()
+    settings, spending = config.model, spending or Spending()
+    session = Session(budget=CallBudget(spending.limits))
+    prompts = _prompts(settings)
     with ExitStack() as resources:
-        store: CallStore | None = None
-        made: dict[str, VisionLanguageModel] = {}
-        for name in (settings.name, *settings.roles.values()):
-            if name in made:
-                continue
-            model = make_model(settings, name, config.seed)
-            if isinstance(model, RecordedModel):
-                resources.callback(model.close)
-            elif learning or name != EMBEDDED:
-                store = store or resources.enter_context(CallStore(folder.calls))
-                model = StoredModel(model, store, iteration=lambda: session.iteration)
-            made[name] = _Counted(model, session)
+        opened = {name: _open(settings, name, config.seed, resources) for name in _names(settings)}
+        kept = {n: m for n, m in opened.items() if _is_kept(n, m, learning)}
+        if kept:
+            keep = _keeper(folder, spending, session, resources)
+            opened |= {name: keep(model) for name, model in kept.items()}
+        made = {name: _Counted(model, session) for name, model in opened.items()}
         roles = {role: made[settings.roles.get(role, settings.name)] for role in Role}
-        prompts = PromptLibrary(Path(settings.prompts) if settings.prompts else None)
         session.assistant = Assistant(ModelSet(roles), prompts, settings.assistant)
         yield session
 
 
-def make_model(settings: ModelSettings, name: str, seed: int) -> VisionLanguageModel:
-    """A model by its name: ``embedded`` or ``recorded:DIR``.
+def check_models(config: RunConfig) -> None:
+    """Make sure that the models of a run can be opened and its templates read.
 
     Raises:
-        UnknownNameError: if there is no such model or noise profile.
+        UserError: if a name, an option, a recording or a template is not what it should be.
+        AuthenticationError: if a key is missing.
+    """
+    _prompts(config.model)
+    with ExitStack() as resources:
+        for name in _names(config.model):
+            _open(config.model, name, config.seed, resources)
+
+
+def make_model(settings: ModelSettings, name: str, seed: int) -> VisionLanguageModel:
+    """A model by its name: ``embedded``, ``openai:NAME`` or ``recorded:DIR``.
+
+    Raises:
+        ConfigurationError: if something is missing in the name.
+        UnknownNameError: if there is no such kind of model or noise profile.
+        AuthenticationError: if a key is needed and there is none.
         RunFolderError: if a recording is missing or damaged.
     """
-    kind, _, rest = name.partition(":")
-    makers: dict[str, Callable[[], VisionLanguageModel]] = {
-        EMBEDDED: lambda: EmbeddedModel(seed=seed, noise=noise_profile(settings.noise)),
-        "recorded": lambda: RecordedModel(Path(rest)),
-    }
-    if kind not in makers:
-        raise UnknownNameError("model", name, makers)
-    return makers[kind]()
+    if name.partition(":")[0] not in _KINDS:
+        raise UnknownNameError("model", name, _KINDS.values())
+    options = ModelOptions(seed=seed, noise=settings.noise, base_url=settings.base_url)
+    return open_model(name, options)
+
+
+def _names(settings: ModelSettings) -> tuple[str, ...]:
+    return tuple(dict.fromkeys((settings.name, *settings.roles.values())))
+
+
+def _prompts(settings: ModelSettings) -> PromptLibrary:
+    return PromptLibrary(Path(settings.prompts) if settings.prompts else None)
+
+
+def _open(
+    settings: ModelSettings, name: str, seed: int, resources: ExitStack
+) -> VisionLanguageModel:
+    model = make_model(settings, name, seed)
+    close = getattr(model, "close", None)
+    if callable(close):
+        resources.callback(close)
+    return model
+
+
+def _is_kept(name: str, model: VisionLanguageModel, learning: bool) -> bool:
+    if isinstance(model, RecordedModel):
+        return False
+    return learning or name != EMBEDDED
+
+
+def _keeper(
+    folder: RunFolder, spending: Spending, session: Session, resources: ExitStack
+) -> Callable[[VisionLanguageModel], VisionLanguageModel]:
+    """What puts the stores, the limits and the repetitions around a model."""
+    store = resources.enter_context(CallStore(folder.calls))
+    shared = resources.enter_context(CallStore(spending.shared)) if spending.shared else None
+    keeping = CallKeeping(store, shared, session.budget, spending.policy, lambda: session.iteration)
+    return lambda model: keep_calls(model, keeping)

@@ -6,7 +6,7 @@ from contextlib import closing
 from pathlib import Path
 
 from skillwrapper.domains.registry import domain_file, make_environment
-from skillwrapper.run.assistants import Session, open_assistant
+from skillwrapper.run.assistants import Session, Spending, check_models, open_assistant
 from skillwrapper.run.config import RunConfig
 from skillwrapper.run.events import RunEvent
 from skillwrapper.run.folder import RunFolder
@@ -23,8 +23,19 @@ class Onlooker:
         """Something happened."""
 
 
-def learn(config: RunConfig, out: Path, onlooker: Onlooker | None = None) -> LearningResult:
+def learn(
+    config: RunConfig,
+    out: Path,
+    onlooker: Onlooker | None = None,
+    spending: Spending | None = None,
+) -> LearningResult:
     """Run Algorithm 1 in a folder, or go on with a run that is there.
+
+    Args:
+        config: what to do.
+        out: the folder.
+        onlooker: told of what happens.
+        spending: limits, repetitions and a shared call store; None for the defaults.
 
     Raises:
         UserError: if the configuration or the folder cannot be used.
@@ -33,10 +44,11 @@ def learn(config: RunConfig, out: Path, onlooker: Onlooker | None = None) -> Lea
         LimitReachedError: if a limit of the user's is reached; the run can be resumed.
     """
     onlooker = onlooker or Onlooker()
+    check_models(config)  # first: a mistake in a name or a missing key leaves no folder behind
     folder = RunFolder.create_or_resume(out, config, domain_file(config.domain))
     with (
         closing(make_environment(config.domain)) as environment,
-        open_assistant(config, folder) as session,
+        open_assistant(config, folder, spending=spending) as session,
     ):
 
         def watch(event: RunEvent) -> None:
