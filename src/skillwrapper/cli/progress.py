@@ -71,6 +71,11 @@ class RunProgress(Onlooker):
         """How many model calls were answered so far."""
         return self._session.calls if self._session else 0
 
+    @property
+    def calls_made(self) -> int:
+        """How many calls a model was asked; the rest came from a store."""
+        return self._session.budget.calls if self._session else 0
+
     def opened(self, session: Session) -> None:
         """Remember where calls are counted."""
         self._session = session

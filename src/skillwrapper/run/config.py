@@ -41,6 +41,7 @@ class RunConfig(BaseModel):
         domain: a bundled domain's name.
         seed: decides every choice by chance, the layouts and the embedded model's replies.
         iterations: how often to explore and learn (the paper's m).
+        until_converged: stop earlier, when an iteration brought nothing new.
         exploration: how skill sequences are chosen.
         learning: how predicates are invented.
         model: which models answer.
@@ -51,6 +52,7 @@ class RunConfig(BaseModel):
     domain: str
     seed: int = 0
     iterations: int = Field(default=5, ge=1)
+    until_converged: bool = False
     exploration: ExplorationSettings = Field(default_factory=ExplorationSettings)
     learning: LearningSettings = Field(default_factory=LearningSettings)
     model: ModelSettings = Field(default_factory=ModelSettings)
@@ -62,15 +64,17 @@ class RunConfig(BaseModel):
     def difference(self, other: RunConfig) -> str:
         """The first setting in which another configuration differs; empty if there is none.
 
-        The number of iterations, the number of parallel calls and the address of the endpoint
-        may differ: they do not change what is learned, only how far and how fast.
+        The number of iterations, when to stop before them, the number of parallel calls and the
+        address of the endpoint may differ: they do not change what is learned, only how far and
+        how fast.
         """
         return _first_difference(self._essence(), other._essence())
 
     def _essence(self) -> dict[str, object]:
         assistant = replace(self.model.assistant, parallel=1)
         model = self.model.model_copy(update={"assistant": assistant, "base_url": None})
-        return self.model_copy(update={"iterations": 1, "model": model}).model_dump(mode="json")
+        changes = {"iterations": 1, "until_converged": False, "model": model}
+        return self.model_copy(update=changes).model_dump(mode="json")
 
 
 def _first_difference(mine: object, theirs: object, path: str = "") -> str:

@@ -30,6 +30,7 @@ from skillwrapper.run.artifacts import (
 )
 from skillwrapper.run.batch_invention import BatchInventor
 from skillwrapper.run.config import RunConfig
+from skillwrapper.run.convergence import Convergence
 from skillwrapper.run.events import EventKind, RunEvent, Watcher
 from skillwrapper.run.folder import RunFolder, append_line, write_json
 from skillwrapper.run.proposer import ModelProposer
@@ -52,6 +53,7 @@ class LearningResult:
         unresolved: one inconsistency for each cause that is left.
         executions: how many skills were executed.
         iterations: how many iterations were run.
+        converged: whether the last iteration brought nothing new; only told if asked for.
     """
 
     fit: Fit
@@ -59,12 +61,14 @@ class LearningResult:
     unresolved: tuple[Inconsistency, ...]
     executions: int
     iterations: int
+    converged: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """Figures as plain data."""
         kinds = Counter(str(i.kind) for i in self.fit.inconsistencies)
         return {
             "iterations": self.iterations,
+            "converged": self.converged,
             "executions": self.executions,
             "predicates": len(self.fit.predicates),
             "operators": len(self.fit.operators),
@@ -107,6 +111,8 @@ class LearningRun:
         self._fitter = Fitter(domain, self.dataset, self.truth, absences=config.learning.absences)
         self._vocabulary = Vocabulary(domain.types)
         self._inventor = self._make_inventor(assistant)
+        self._convergence = Convergence(self._fitter)
+        self._converged = False
         self._iteration = 0
         self._finished = folder.finished_iterations()
         self._decisions: list[dict[str, Any]] = []
@@ -120,7 +126,7 @@ class LearningRun:
             LimitReachedError: if a limit of the user's is reached; the run can be resumed.
         """
         result = None
-        while self._iteration < self._config.iterations:
+        while self._iteration < self._config.iterations and not self._converged:
             result = self._iterate()
         if result is None:
             result = self._result()
@@ -144,11 +150,13 @@ class LearningRun:
         episode = self._explore()
         self.dataset.add(episode)
         self._explorer.record(episode)
+        self._converged = self._config.until_converged and self._convergence.is_reached()
         self._inventor.invent()
         if self._config.learning.prune:
             for pruned in prune(self._fitter, self._vocabulary):
                 self._set_dormant(pruned)
         result = self._result()
+        self._convergence.remember(result.fit)
         self._write(result)
         self._fitter.forget()
         self._tell(EventKind.ITERATION_FINISHED, **result.to_json())
@@ -176,6 +184,7 @@ class LearningRun:
             distinct_causes(fit.inconsistencies),
             len(self.dataset),
             self._iteration,
+            self._converged,
         )
 
     def _write(self, result: LearningResult) -> None:
