@@ -6,7 +6,17 @@ import sys
 
 import typer
 
-from skillwrapper.cli import domains, learning, models, planning, reporting, studies
+from skillwrapper.cli import (
+    domains,
+    experiments,
+    learning,
+    model_calls,
+    models,
+    planning,
+    problems,
+    reporting,
+    studies,
+)
 from skillwrapper.cli.output import messages
 from skillwrapper.errors import InternalError, LimitReachedError, SkillWrapperError
 
@@ -17,7 +27,18 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for group in (learning, models, planning, domains, reporting, studies):
+_GROUPS = (
+    learning,
+    models,
+    planning,
+    domains,
+    problems,
+    experiments,
+    reporting,
+    studies,
+    model_calls,
+)
+for group in _GROUPS:
     group.register(app)
 
 

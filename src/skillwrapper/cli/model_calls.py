@@ -1,0 +1,151 @@
+"""``skillwrapper calls``, ``doctor`` and ``vlm-server``: what models are asked, and trying them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.table import Table
+
+from skillwrapper.cli.model_options import BaseUrlOption
+from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.run.config import ModelSettings
+from skillwrapper.run.doctor import examine
+from skillwrapper.run.folder import RunFolder
+from skillwrapper.vlm.embedded import EmbeddedModel
+from skillwrapper.vlm.protocol import Role
+from skillwrapper.vlm.server import ServerSettings, VlmServer
+from skillwrapper.vlm.server_faults import FaultPlan
+from skillwrapper.vlm.store import CallStatus, CallStore, CallTotals, StoredCall
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this group."""
+    app.command()(calls)
+    app.command()(doctor)
+    app.command("vlm-server")(vlm_server)
+
+
+def calls(
+    run: Annotated[Path, typer.Argument(help="Folder of a run.")],
+    role: Annotated[Role | None, typer.Option(help="Only calls of a role.")] = None,
+    iteration: Annotated[int | None, typer.Option(min=1, help="Only of an iteration.")] = None,
+    status: Annotated[CallStatus | None, typer.Option(help="List only such calls.")] = None,
+    last: Annotated[int, typer.Option(min=0, help="List so many, the last ones; 0 for all.")] = 20,
+    full: Annotated[bool, typer.Option("--full", help="With whole prompts and replies.")] = False,
+    as_json: JsonFlag = False,
+) -> None:
+    """List the model calls of a run, and what they took in all."""
+    with CallStore(RunFolder.open(run).calls, read_only=True) as store:
+        found = list(store.calls(role=role, iteration=iteration, status=status))
+        totals = [
+            t for t in store.totals() if role in {None, t.role} and iteration in {None, t.iteration}
+        ]
+    shown = found[-last:] if last else found
+    if as_json:
+        entries = [asdict(call) for call in shown]
+        total = _describe_sum(totals)
+        print_json({"calls": entries, "totals": [asdict(t) for t in totals], "total": total})
+        return
+    for call in shown:
+        _print_call(call, full)
+    if len(shown) < len(found):
+        results().print(f"the last {len(shown)} of {len(found)} calls; all with --last 0\n")
+    _print_totals(totals)
+
+
+def doctor(
+    model: Annotated[str, typer.Option(help="embedded, openai:NAME or recorded:DIR.")],
+    base_url: BaseUrlOption = None,
+    as_json: JsonFlag = False,
+) -> None:
+    """Try a model with a few calls: key, endpoint, pictures, and whether its replies are of use."""
+    findings = []
+    for finding in examine(ModelSettings(name=model, base_url=base_url)):
+        findings.append(finding)
+        if not as_json:
+            mark = "[green]ok[/]   " if finding.passed else "[red]wrong[/]"
+            results().print(f"{mark} {finding.check}: ", end="")
+            results().print(finding.detail, markup=False)
+    healthy = all(finding.passed for finding in findings)
+    if as_json:
+        print_json({"healthy": healthy, "findings": [asdict(f) for f in findings]})
+    if not healthy:
+        raise typer.Exit(2)
+
+
+def vlm_server(
+    port: Annotated[int, typer.Option(min=0, max=65535, help="On 127.0.0.1; 0 for any.")] = 8000,
+    latency: Annotated[float, typer.Option(min=0.0, help="Seconds that a call takes.")] = 0.0,
+    faults: Annotated[float, typer.Option(min=0.0, max=1.0, help="Share of failing calls.")] = 0.0,
+    seed: Annotated[int, typer.Option(min=0, help="Of the model, and of what fails.")] = 0,
+) -> None:
+    """Serve the embedded model to any client of the chat-completions protocol."""
+    settings = ServerSettings(port, latency, FaultPlan(rate=faults, seed=seed))
+    server = VlmServer(EmbeddedModel(seed), settings)
+    messages().print(
+        f"serving the model 'embedded' at {server.url}; stop with Ctrl-C\n"
+        f"try it: skillwrapper doctor --model openai:embedded --base-url {server.url}",
+        soft_wrap=True,
+    )
+    try:
+        server.serve()
+    except KeyboardInterrupt:
+        messages().print("stopped")
+
+
+def _print_call(call: StoredCall, full: bool) -> None:
+    console = results()
+    source = "shared store" if call.shared else call.model
+    console.print(
+        f"{call.iteration or '-':>3}  {call.role:9}  {call.status:8}  {call.usage.seconds:6.1f} s  "
+        f"{source}  {call.key[:12]}",
+        markup=False,
+    )
+    if full:
+        pictures = json.dumps(call.pictures)
+        console.print(
+            f"--- system\n{call.system}\n--- prompt\n{call.prompt}\n--- pictures {pictures}\n"
+            f"--- reply\n{call.reply}\n",
+            markup=False,
+        )
+
+
+def _print_totals(totals: Sequence[CallTotals]) -> None:
+    names = ("it.", "role", "made", "failed", "served", "share", "in", "out", "dollars")
+    table = Table(box=None, padding=(0, 2, 0, 0), caption="in, out: tokens of prompts and replies")
+    for name in (*names, "seconds"):
+        table.add_column(name, no_wrap=True)
+    for one in totals:
+        table.add_row(str(one.iteration or "-"), str(one.role), *_cells(asdict(one)))
+    table.add_row("all", "", *_cells(_describe_sum(totals)), style="bold")
+    results().print(table)
+
+
+def _cells(total: dict[str, Any]) -> tuple[str, ...]:
+    asked = total["made"] + total["served"]
+    return (
+        str(total["made"]),
+        str(total["failed"]),
+        str(total["served"]),
+        f"{total['served'] / asked:.0%}" if asked else "-",
+        _known(total["input_tokens"], ","),
+        _known(total["output_tokens"], ","),
+        _known(total["cost"], ".4f"),
+        f"{total['seconds']:.1f}",
+    )
+
+
+def _describe_sum(totals: Sequence[CallTotals]) -> dict[str, Any]:
+    """Everything added up; unknown as soon as one part is."""
+    names = ("made", "served", "failed", "input_tokens", "output_tokens", "cost", "seconds")
+    columns = {name: [getattr(total, name) for total in totals] for name in names}
+    return {name: None if None in values else sum(values) for name, values in columns.items()}
+
+
+def _known(value: float | None, form: str) -> str:
+    return "unknown" if value is None else format(value, form)
