@@ -10,7 +10,7 @@ from enum import StrEnum
 from typing import Protocol
 
 from skillwrapper.learning.clusters import changed_literals
-from skillwrapper.learning.fitting import Fit, Fitter, SkillFit
+from skillwrapper.learning.fitting import OPERATOR_COST, Fit, Fitter, SkillFit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
@@ -88,15 +88,16 @@ class _Trial:
         everything = self.fit.cost
         return self.fit.hard_cost, everything, self.predicate.arity, position
 
-    def is_worth_it(self, before: Fit, kind: InconsistencyKind) -> bool:
-        """Whether it explains at least as much as it takes.
+    def is_worth_it(self, before: Fit, kind: InconsistencyKind, slack: int = 0) -> bool:
+        """Whether it explains at least as much as it takes, but for ``slack`` operators.
 
         What it leaves of the third and fourth kind counts only if one of these was asked for:
         a good relation often has to wait for its partner (DESIGN.md D6).
         """
+        allowed = slack * OPERATOR_COST
         if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT):
-            return self.fit.hard_cost <= before.hard_cost
-        return self.fit.cost <= before.cost
+            return self.fit.hard_cost <= before.hard_cost + allowed
+        return self.fit.cost <= before.cost + allowed
 
 
 class Inventor:
@@ -123,7 +124,9 @@ class Inventor:
         self._vocabulary = vocabulary
         self._proposer = proposer
         self._settings = settings
+        self._size = 0
         self._attempts: Counter[Identity] = Counter()
+        self._questions: Counter[Identity] = Counter()
         self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
 
     def invent(self) -> Fit:
@@ -132,6 +135,7 @@ class Inventor:
         A predicate that splits the data into more operators than it explains transitions is
         taken back, once in a call, and what it explained is asked for again.
         """
+        self._admit_new_data()
         retracted: set[Predicate] = set()
         for _ in range(self._settings.max_inventions):
             fit = self._fitter.fit(self._vocabulary.active)
@@ -145,6 +149,15 @@ class Inventor:
             retracted.update(burdens)
             self._retract(burdens)
         return self._fitter.fit(self._vocabulary.active)
+
+    def _admit_new_data(self) -> None:
+        """What was given up or rejected on fewer data may be tried again."""
+        size = len(self._fitter.dataset)
+        if size != self._size:
+            self._size = size
+            self._attempts.clear()
+            self._postponed.clear()
+            self._vocabulary.forget_rejections()
 
     def unresolved(self, fit: Fit) -> tuple[Inconsistency, ...]:
         """One inconsistency for each cause that is left."""
@@ -173,21 +186,24 @@ class Inventor:
         """Look for a predicate among the dormant ones, then among those that the model proposes.
 
         A candidate that takes more than it explains is postponed; the last attempt takes the
-        best of all that were postponed if nothing better came.
+        best of all that were postponed if nothing better came, unless it takes much more: then
+        the inconsistency is better left open until there are more data.
         """
         attempt = self._attempts[inconsistency.identity]
         self._attempts[inconsistency.identity] += 1
         if attempt == 0 and self._try(inconsistency, fit, self._vocabulary.dormant, dormant=True):
             return
+        number = self._questions[inconsistency.identity]
+        self._questions[inconsistency.identity] += 1
         proposed = self._proposer.propose(
-            inconsistency, fit.predicates, self._vocabulary.rejected, attempt
+            inconsistency, fit.predicates, self._vocabulary.rejected, number
         )
         fresh = self._vocabulary.fresh(proposed)
         if self._try(inconsistency, fit, fresh, dormant=False):
             return
         postponed = self._postponed.get(inconsistency.identity, ())
         if attempt + 1 >= self._settings.attempts and postponed:
-            self._take_best(inconsistency, postponed)
+            self._take_best(inconsistency, fit, postponed)
 
     def _try(
         self,
@@ -213,10 +229,13 @@ class Inventor:
             self._postponed[inconsistency.identity] = (*known, *(t.predicate for t in good))
         return best is not None
 
-    def _take_best(self, inconsistency: Inconsistency, postponed: Sequence[Predicate]) -> None:
+    def _take_best(
+        self, inconsistency: Inconsistency, fit: Fit, postponed: Sequence[Predicate]
+    ) -> None:
         asleep = self._vocabulary.dormant
         trials = [self._trial(inconsistency, p, dormant=p in asleep) for p in postponed]
-        best = self._best([t for t in trials if t.resolved])
+        kind = inconsistency.kind
+        best = self._best([t for t in trials if t.resolved and t.is_worth_it(fit, kind, slack=1)])
         if best is not None:
             verdict = Verdict.REVIVED if best.dormant else Verdict.ACCEPTED
             reason = "the best that came for an inconsistency"

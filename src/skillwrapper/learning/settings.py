@@ -27,7 +27,7 @@ class LearningSettings(BaseModel):
 
     threshold: float = Field(default=0.6, ge=0.0, le=1.0)
     attempts: int = Field(default=3, ge=1)
-    candidates: int = Field(default=3, ge=1)
+    candidates: int = Field(default=5, ge=1)
     max_inventions: int = Field(default=60, ge=0)
     prune: bool = True
     absences: bool = True

@@ -50,6 +50,10 @@ class Vocabulary:
         if predicate not in self.rejected:
             self.rejected = (*self.rejected, predicate)
 
+    def forget_rejections(self) -> None:
+        """Let all rejections lapse."""
+        self.rejected = ()
+
     def set_dormant(self, predicate: Predicate) -> None:
         """Take a predicate out of use; rejections lapse."""
         self.active = tuple(p for p in self.active if p != predicate)
