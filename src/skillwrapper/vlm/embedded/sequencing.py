@@ -16,11 +16,11 @@ from skillwrapper.vlm.parsing.calls import find_calls
 
 _SAME_OBJECT = 4.0
 _REPEATED = 0.05
-_MEANT_TO_WORK = 0.7
+_MEANT_TO_WORK = 0.6
 """Share of steps that ought to work, by what the prompt tells of the skills."""
 _DOUBTED = 0.6
 """Share of the other steps against which only a little of what is told speaks: it may be wrong."""
-_NEW_AIM = 0.5
+_NEW_AIM = 0.65
 """How likely a step begins to bring about one of the least explored pairs."""
 _FARTHEST = 3
 """How many steps ahead a way to a skill that works is looked for."""
