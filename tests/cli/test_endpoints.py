@@ -22,7 +22,7 @@ from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.retrying import RetryPolicy
 from skillwrapper.vlm.server import ServerSettings, VlmServer
-from skillwrapper.vlm.server_faults import FaultPlan
+from skillwrapper.vlm.server_faults import Fault, FaultPlan
 from skillwrapper.vlm.settings import AssistantSettings
 from skillwrapper.vlm.store import CallStatus, CallStore
 
@@ -96,14 +96,17 @@ def test_a_run_over_http_learns_the_same_and_keeps_no_key(
 
 
 def test_a_run_survives_faults(direct: dict[str, bytes], tmp_path: Path) -> None:
-    faults = FaultPlan(rate=0.3, seed=1, retry_after=0.01, slowness=0.01)
+    ways = (*Fault, Fault.NONSENSE, Fault.NONSENSE)
+    faults = FaultPlan(rate=0.3, kinds=ways, seed=1, retry_after=0.01, slowness=0.01)
     with VlmServer(EmbeddedModel(1), ServerSettings(faults=faults)) as server:
         learn(over(server, parallel=4), tmp_path / "run", None, FAST)
     assert model_of(tmp_path / "run") == direct
     with CallStore(tmp_path / "run" / "calls.sqlite", read_only=True) as store:
         kinds = {call.status for call in store.calls()}
     # A reply that could not be read was taken back, and is not served again.
-    assert kinds == set(CallStatus)
+    assert CallStatus.UNUSABLE in kinds
+    learn(config(ModelSettings(name=f"recorded:{tmp_path / 'run'}")), tmp_path / "replay")
+    assert model_of(tmp_path / "replay") == direct
 
 
 def test_a_shared_store_saves_every_call(

@@ -40,10 +40,13 @@ class RecordedModel:
     def complete(self, request: ModelRequest) -> ModelReply:
         """The recorded reply.
 
+        One that could not be read then cannot be read now, and makes who asks ask again, as then.
+
         Raises:
             RecordingError: if the question was not answered in the recorded run.
         """
-        call = self._store.find_question(question_key(request))
+        key = question_key(request)
+        call = self._store.find_question(key) or self._store.find_unusable(key)
         if call is None:
             raise RecordingError(
                 f"{self._folder}: this question of the role '{request.role}' has no usable answer "

@@ -174,6 +174,10 @@ class CallStore:
         """The first answered call with a question, whichever model was asked."""
         return self._find("question", question)
 
+    def find_unusable(self, question: str) -> StoredCall | None:
+        """The first reply to a question that could not be read; for replays, never an answer."""
+        return self._find("question", question, CallStatus.UNUSABLE)
+
     def add(self, call: StoredCall) -> None:
         """Keep a call."""
         with self._lock:
@@ -247,15 +251,17 @@ class CallStore:
                 self.flush()
             self._connection.close()
 
-    def _find(self, column: str, value: str) -> StoredCall | None:
+    def _find(
+        self, column: str, value: str, status: CallStatus = CallStatus.ANSWERED
+    ) -> StoredCall | None:
         with self._guarded() as connection:
             for call in self._pending:
-                if getattr(call, column) == value and call.status is CallStatus.ANSWERED:
+                if getattr(call, column) == value and call.status is status:
                     return call
             row = connection.execute(
                 f"SELECT {_COLUMNS} FROM calls WHERE {column} = ? AND status = ?"
                 " ORDER BY number LIMIT 1",
-                (value, CallStatus.ANSWERED),
+                (value, status),
             ).fetchone()
         return _call_of(row) if row else None
 
