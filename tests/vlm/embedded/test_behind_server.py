@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 import pytest
-from kitchen import EXPERT, embedded_model, kitchen
+from seen_kitchen import EXPERT, embedded_model, kitchen
 
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.vlm.assistant import Assistant

@@ -6,7 +6,7 @@ import itertools
 from collections import Counter
 
 import pytest
-from kitchen import EXPERT, embedded_model, kitchen
+from seen_kitchen import EXPERT, embedded_model, kitchen
 
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Atom, Predicate

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-from kitchen import EXPERT, embedded_model, kitchen
+from seen_kitchen import EXPERT, embedded_model, kitchen
 
 from skillwrapper.errors import ModelUnavailableError, UnknownNameError
 from skillwrapper.symbols import Atom, Predicate
