@@ -7,15 +7,13 @@ from rich.table import Table
 
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ConfigurationError
+from skillwrapper.evaluation.state_truth import TRUTH_LAYOUT
 from skillwrapper.evaluation.verification import Verification, verify
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.assistants import open_assistant
 from skillwrapper.run.learned import LearnedRun
 from skillwrapper.symbols import AtomSpace
 from skillwrapper.world.environment import EnumerableEnvironment
-
-UNSEEN_LAYOUT = 999_999_937
-"""The seed of the layout in which models are verified; no run resets to it."""
 
 
 def run_verification(
@@ -40,7 +38,7 @@ def run_verification(
                 environment,
                 learned.model,
                 lambda observations: truth.labels(space, observations),
-                seed=UNSEEN_LAYOUT if layout_seed is None else layout_seed,
+                seed=TRUTH_LAYOUT if layout_seed is None else layout_seed,
             )
     environment.close()
     return verification
