@@ -16,6 +16,16 @@ def test_operator_in_words() -> None:
     )
 
 
+def test_what_is_untested_is_set_apart() -> None:
+    (operator,) = (o for o in expert_model().operators if o.name == "Pick_from_table")
+    item = operator.parameters[1]
+    absence = min(operator.absences)
+    text = describe_operator(operator, {absence, item})
+    assert f"\n  may need {absence}\n  may need ?item: pickupable\n" in text
+    assert text.count(str(absence)) == 1
+    assert "\n  needs hand_empty(?robot), " in text
+
+
 def test_absence_and_conditional_effect_in_words() -> None:
     other = Variable("?other", ("item",))
     effect = ConditionalEffect(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Protocol
 
@@ -17,6 +17,7 @@ from skillwrapper.exploration.repair import random_sequence, repair_sequence
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.symbols import AbstractModel, GroundModel, Labels
 from skillwrapper.symbols.describe import describe_operator
+from skillwrapper.symbols.operators import Condition
 from skillwrapper.vlm.questions import ProposalAnswer, ProposalQuestion
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Episode
@@ -42,12 +43,15 @@ class Situation:
         observation: what is seen.
         state: abstract state (atoms,) of the model's vocabulary.
         model: what was learned so far.
+        untested: for every operator, by name, the conditions of which nothing shows that they
+            matter.
     """
 
     objects: tuple[Object, ...]
     observation: Observation
     state: Labels
     model: AbstractModel
+    untested: Mapping[str, Collection[Condition]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -138,7 +142,10 @@ class Explorer:
             objects=situation.objects,
             observation=situation.observation,
             predicates=situation.model.predicates,
-            operators=tuple(describe_operator(o) for o in situation.model.operators),
+            operators=tuple(
+                describe_operator(o, situation.untested.get(o.name, ()))
+                for o in situation.model.operators
+            ),
             least_explored=self._least_explored(allowed, scarce),
             scarce_skills=scarce,
             count=self._settings.candidates,

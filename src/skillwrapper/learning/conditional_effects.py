@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,6 +60,11 @@ class _Rule:
     change: SignedPattern
     condition: tuple[tuple[Pattern, bool], ...]
     types: frozenset[str]
+
+    def covers(self, case: _Case) -> bool:
+        """Whether it says that an object changes."""
+        met = all((pattern in case.held) is truth for pattern, truth in self.condition)
+        return met and self.types <= case.types
 
 
 def learn_with_conditional_effects(
@@ -149,7 +154,8 @@ def _find_rules(cluster: Cluster, predicates: Sequence[Predicate]) -> tuple[_Rul
                 changes.add(pattern[0])
     size = len(cluster.groups[0].lifting.objects)
     patterns = tuple(_patterns(predicates, size))
-    rules = [_find_rule(cluster, patterns, change) for change in sorted(changes)]
+    slots = {p.name: p.types for p in predicates}
+    rules = [_find_rule(cluster, patterns, slots, change) for change in sorted(changes)]
     found = tuple(rule for rule in rules if rule is not None)
     return found if len(found) == len(rules) else None
 
@@ -162,22 +168,47 @@ def _patterns(predicates: Sequence[Predicate], size: int) -> Iterator[Pattern]:
 
 
 def _find_rule(
-    cluster: Cluster, patterns: Sequence[Pattern], change: SignedPattern
+    cluster: Cluster,
+    patterns: Sequence[Pattern],
+    slots: Mapping[str, tuple[str, ...]],
+    change: SignedPattern,
 ) -> _Rule | None:
-    """What all objects that changed had in common, if no other object had all of it."""
+    """What all objects that changed had in common, as little of it as tells them from the others.
+
+    An object that is said to change and does not is as wrong as the reverse, so nothing speaks
+    for the most specific condition. None if no condition tells them apart.
+    """
     cases = [case for group in cluster.groups for case in _cases(group, patterns, change)]
     changed = [case for case in cases if case.changed]
     if not changed:
         return None
     always = frozenset.intersection(*(case.held for case in changed))
     never = frozenset(patterns) - frozenset.union(*(case.held for case in changed))
-    types = frozenset.intersection(*(case.types for case in changed))
-    unchanged = [case for case in cases if not case.changed and types <= case.types]
-    if any(always <= case.held and not never & case.held for case in unchanged):
+    predicate, terms = change[1]
+    rule = _Rule(
+        change,
+        tuple(sorted([*((p, True) for p in always), *((p, False) for p in never)])),
+        frozenset.intersection(*(case.types for case in changed)),
+    )
+    others = [case for case in cases if not case.changed]
+    if any(rule.covers(case) for case in others):
         return None
-    needed = {(p, True) for p in always}
-    needed |= {(p, False) for p in never if any(p in case.held for case in unchanged)}
-    return _Rule(change, tuple(sorted(needed)), types)
+    wider = frozenset({slots[predicate][terms.index(OTHER)]})
+    return _simplest([replace(rule, types=wider), rule], others)
+
+
+def _simplest(rules: Sequence[_Rule], others: Sequence[_Case]) -> _Rule:
+    """The first rule that covers no other case, without the literals that it can do without.
+
+    Properties go before relations to the core's objects, and what is false before what is true.
+    """
+    rule = next(rule for rule in rules if not any(rule.covers(case) for case in others))
+    for literal in sorted(rule.condition, key=lambda c: (len(c[0][1]), c[1], c)):
+        left = tuple(c for c in rule.condition if c != literal)
+        simpler = replace(rule, condition=left)
+        if left and not any(simpler.covers(case) for case in others):
+            rule = simpler
+    return rule
 
 
 def _cases(group: Group, patterns: Sequence[Pattern], change: SignedPattern) -> Iterator[_Case]:

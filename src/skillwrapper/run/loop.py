@@ -20,6 +20,7 @@ from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
 from skillwrapper.learning.invention import Decision, Inventor
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.pruning import Pruned, prune
+from skillwrapper.learning.untested import find_untested
 from skillwrapper.learning.vocabulary import Vocabulary
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.artifacts import (
@@ -172,7 +173,8 @@ class LearningRun:
         fit = self._fitter.fit(self._vocabulary.active)
         objects = self.dataset.domain.scene_objects(scene)
         state = self.truth.labels(AtomSpace(fit.predicates, objects), [observation])[0]
-        choice = self._explorer.choose(Situation(objects, observation, state, fit.model))
+        situation = Situation(objects, observation, state, fit.model, find_untested(fit))
+        choice = self._explorer.choose(situation)
         self._tell(EventKind.SEQUENCE_CHOSEN, **_describe_choice(choice))
         return choice.sequence
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from skillwrapper.symbols.model import AbstractModel
-from skillwrapper.symbols.operators import Operator, Variable
+from skillwrapper.symbols.operators import Condition, Operator
 from skillwrapper.symbols.predicates import Literal, Predicate
 
 
@@ -15,14 +15,24 @@ def describe_predicate(predicate: Predicate) -> str:
     return f"{predicate.signature}: {meaning}" if meaning else predicate.signature
 
 
-def describe_operator(operator: Operator) -> str:
-    """A block of lines: the skill with its variables, what it needs, what it changes."""
-    own = ", ".join(map(_variable, operator.parameters[: operator.arity]))
-    context = ", ".join(map(_variable, operator.context))
+def describe_operator(operator: Operator, untested: Collection[Condition] = ()) -> str:
+    """A block of lines: the skill with its variables, what it needs, what it changes.
+
+    Args:
+        operator: the operator.
+        untested: conditions of which nothing shows that they matter; they are set apart.
+    """
+    own = ", ".join(map(str, operator.parameters[: operator.arity]))
+    context = ", ".join(map(str, operator.context))
     with_context = f" with {context}" if context else ""
+    literals = sorted(operator.preconditions, key=_positive_first)
+    absences, types = sorted(operator.absences), operator.parameters
     lines = [f"{operator.name}: {operator.skill}({own}){with_context}"]
-    lines += _line("needs", map(str, sorted(operator.preconditions, key=_positive_first)))
-    lines += _line("needs", (str(absence) for absence in sorted(operator.absences)))
+    lines += _line("needs", (str(c) for c in literals if c not in untested))
+    lines += _line("needs", (str(c) for c in absences if c not in untested))
+    lines += _line("may need", (str(c) for c in literals if c in untested))
+    lines += _line("may need", (str(c) for c in absences if c in untested))
+    lines += _line("may need", (str(c) for c in types if c in untested))
     lines += _line("makes true", map(str, sorted(operator.add_effects)))
     lines += _line("makes false", map(str, sorted(operator.delete_effects)))
     lines += _line("changes", (str(effect) for effect in sorted(operator.conditional_effects)))
@@ -36,10 +46,6 @@ def describe_model(model: AbstractModel) -> str:
     predicates = "\n".join(map(describe_predicate, model.predicates)) or "no predicates"
     operators = "\n\n".join(map(describe_operator, model.operators)) or "no operators"
     return f"{predicates}\n\n{operators}\n"
-
-
-def _variable(variable: Variable) -> str:
-    return f"{variable.name}: {' and '.join(variable.types)}" if variable.types else variable.name
 
 
 def _positive_first(literal: Literal) -> tuple[bool, Literal]:

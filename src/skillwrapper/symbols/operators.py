@@ -20,6 +20,9 @@ class Variable:
     name: str
     types: tuple[str, ...]
 
+    def __str__(self) -> str:
+        return f"{self.name}: {' and '.join(self.types)}" if self.types else self.name
+
 
 @dataclass(frozen=True, order=True)
 class Absence:
@@ -39,6 +42,10 @@ class Absence:
 
     def __str__(self) -> str:
         return f"no other {', '.join(self.quantified)}: {self.atom}"
+
+
+Condition = Literal | Absence | Variable
+"""What an operator asks for; a variable asks for the types of what stands for it."""
 
 
 @dataclass(frozen=True, order=True)

@@ -8,14 +8,14 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from skillwrapper.vlm.embedded.lexicon import understand
 from skillwrapper.vlm.embedded.noise import Judgement
 from skillwrapper.vlm.embedded.prompt_text import PromptText, WrittenCall
 from skillwrapper.vlm.embedded.sight import Sight
 
-_HEAD = re.compile(r"^- [\w-]+: ([\w-]+)\(([^()]*)\)(?: with (.*))?$")
+_HEAD = re.compile(r"^- ([\w-]+): ([\w-]+)\(([^()]*)\)(?: with (.*))?$")
 _VARIABLE = re.compile(r"(\?[\w-]+)(?:: ([\w-]+(?: and [\w-]+)*))?")
 _CONDITION = re.compile(r"(?:no other ([^:()]+): )?(not )?([\w-]+)\(([^()]*)\)")
 _EACH = re.compile(r"every other (\?[\w-]+) with (.*?): (not )?([\w-]+)\(([^()]*)\)(?=, |$)")
@@ -25,6 +25,7 @@ MANY = 2
 
 Facts = frozenset[WrittenCall]
 Binding = Mapping[str, str]
+Objects = Mapping[str, frozenset[str]]
 
 
 @dataclass(frozen=True)
@@ -35,13 +36,15 @@ class ToldCondition:
         atom: what is spoken of, with variables.
         positive: whether it must hold.
         others: variables that stand for any other object.
+        sure: whether it is said to matter, and not only that it may.
     """
 
     atom: WrittenCall
     positive: bool
     others: frozenset[str] = frozenset()
+    sure: bool = True
 
-    def holds(self, facts: Facts, binding: Binding) -> bool:
+    def holds(self, facts: Facts, binding: Binding, objects: Objects) -> bool:
         """Whether it is met."""
         if not self.others:
             return (_bound(self.atom, binding) in facts) is self.positive
@@ -55,6 +58,45 @@ class ToldCondition:
             )
             for fact in facts
         )
+
+
+@dataclass(frozen=True)
+class ToldTypes:
+    """Types that what stands for a variable may need to have.
+
+    Attributes:
+        variable: the variable.
+        types: the types.
+        sure: always False; types that are sure are written with the variables.
+    """
+
+    variable: str
+    types: tuple[str, ...]
+    sure: bool = False
+
+    def holds(self, facts: Facts, binding: Binding, objects: Objects) -> bool:
+        """Whether it is met."""
+        return objects.get(binding[self.variable], frozenset()).issuperset(self.types)
+
+
+ToldNeed = ToldCondition | ToldTypes
+Doubt = tuple[str, ToldNeed]
+"""A need that only may matter, with the name of its rule."""
+
+
+@dataclass(frozen=True)
+class Imagined:
+    """What a rule says of a call.
+
+    Attributes:
+        unmet: how many of its needs are not met, at best; from ``MANY`` on not counted further.
+        facts: what is true afterwards, if the call works all the same.
+        doubts: needs that only may matter, each unmet alone under some binding.
+    """
+
+    unmet: int
+    facts: Facts
+    doubts: tuple[Doubt, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,6 +121,7 @@ class ToldRule:
     """One way in which a skill is said to work.
 
     Attributes:
+        name: of the rule.
         skill: name of the skill.
         variables: its own parameters first, then others, with the types they must have.
         arity: how many of the variables are the skill's own parameters.
@@ -86,35 +129,32 @@ class ToldRule:
         changes: what changes.
     """
 
+    name: str
     skill: str
     variables: tuple[tuple[str, tuple[str, ...]], ...]
     arity: int
-    needs: tuple[ToldCondition, ...]
+    needs: tuple[ToldNeed, ...]
     changes: tuple[ToldChange, ...]
 
-    def imagine(
-        self, call: WrittenCall, facts: Facts, objects: Mapping[str, frozenset[str]]
-    ) -> tuple[int, Facts]:
-        """How many needs are not met, at best, and the facts if it worked all the same.
-
-        From ``MANY`` on it is not counted further.
-        """
-        fewest, following = MANY, facts
+    def imagine(self, call: WrittenCall, facts: Facts, objects: Objects) -> Imagined:
+        """What is to be expected of a call where certain facts are true."""
+        best = Imagined(MANY, facts)
+        doubts: dict[Doubt, None] = {}
         for binding in self._bindings(call, objects):
-            unmet = 0
-            for need in self.needs:
-                unmet += not need.holds(facts, binding)
-                if unmet >= fewest:
-                    break
-            else:
-                fewest, following = unmet, self._changed(facts, binding, objects)
-                if not unmet:
-                    break
-        return fewest, following
+            unmet = self._unmet(facts, binding, objects)
+            if len(unmet) < best.unmet:
+                best = Imagined(len(unmet), self._changed(facts, binding, objects))
+            if not unmet:
+                return best
+            if len(unmet) == 1 and not unmet[0].sure:
+                doubts[self.name, unmet[0]] = None
+        return replace(best, doubts=tuple(doubts))
 
-    def _bindings(
-        self, call: WrittenCall, objects: Mapping[str, frozenset[str]]
-    ) -> Iterator[Binding]:
+    def _unmet(self, facts: Facts, binding: Binding, objects: Objects) -> list[ToldNeed]:
+        unmet = (need for need in self.needs if not need.holds(facts, binding, objects))
+        return list(itertools.islice(unmet, MANY))
+
+    def _bindings(self, call: WrittenCall, objects: Objects) -> Iterator[Binding]:
         fixed = [(name,) for name in call.arguments]
         free = [
             tuple(name for name, has in objects.items() if has.issuperset(types))
@@ -128,15 +168,13 @@ class ToldRule:
             if fits and len(set(chosen)) == len(chosen) == len(self.variables):
                 yield dict(zip((name for name, _ in self.variables), chosen, strict=True))
 
-    def _changed(
-        self, facts: Facts, binding: Binding, objects: Mapping[str, frozenset[str]]
-    ) -> Facts:
+    def _changed(self, facts: Facts, binding: Binding, objects: Objects) -> Facts:
         following = set(facts)
         for change in self.changes:
             others = [name for name in objects if name not in binding.values()]
             for extra in ({change.each: name} for name in others) if change.each else ({},):
                 wider = {**binding, **extra}
-                if all(condition.holds(facts, wider) for condition in change.when):
+                if all(condition.holds(facts, wider, objects) for condition in change.when):
                     atom = _bound(change.atom, wider)
                     (following.add if change.becomes else following.discard)(atom)
         return frozenset(following)
@@ -173,18 +211,28 @@ def _read_rule(block: Sequence[str]) -> ToldRule | None:
     head = _HEAD.match(block[0])
     if head is None:
         return None
-    own, context = (_variables(head.group(part) or "") for part in (2, 3))
-    needs: list[ToldCondition] = []
+    own, context = (_variables(head.group(part) or "") for part in (3, 4))
+    needs: list[ToldNeed] = []
     changes: list[ToldChange] = []
     for line in block[1:]:
         if line.startswith("needs "):
             needs += _conditions(line)
+        elif line.startswith("may need "):
+            needs += [replace(condition, sure=False) for condition in _conditions(line)]
+            needs += [ToldTypes(*variable) for variable in _types(line)]
         elif line.startswith(("makes true ", "makes false ")):
             becomes = line.startswith("makes true ")
             changes += [ToldChange(c.atom, becomes) for c in _conditions(line)]
         elif line.startswith("changes "):
             changes += _changes(line)
-    return ToldRule(head.group(1), own + context, len(own), tuple(needs), tuple(changes))
+    unsure = {need.variable for need in needs if isinstance(need, ToldTypes)}
+    variables = tuple((name, () if name in unsure else types) for name, types in own + context)
+    return ToldRule(head.group(1), head.group(2), variables, len(own), tuple(needs), tuple(changes))
+
+
+def _types(text: str) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """``?item: cookable and small`` in a list of needs."""
+    return tuple((name, types) for name, types in _variables(_CONDITION.sub("", text)) if types)
 
 
 def _variables(text: str) -> tuple[tuple[str, tuple[str, ...]], ...]:
