@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.symbols.atom_index import AtomIndex, Columns
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator
 from skillwrapper.symbols.predicates import Atom, Literal, Predicate, all_groundings
@@ -22,7 +23,6 @@ from skillwrapper.world.types import Object
 
 TRUE, FALSE, UNKNOWN = 1, 0, -1
 Labels = NDArray[np.int8]
-Columns = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,11 @@ class AtomSpace:
     def column(self) -> dict[Atom, int]:
         """The column of every ground atom."""
         return {atom: number for number, atom in enumerate(self.atoms)}
+
+    @cached_property
+    def index(self) -> AtomIndex:
+        """Finds columns by the numbers of objects."""
+        return AtomIndex(self.predicates, self.objects)
 
     @cached_property
     def atoms_of(self) -> dict[str, tuple[Atom, ...]]:
