@@ -73,14 +73,15 @@ class Kitchen:
         }
 
     def _table(self, pairs: np.ndarray) -> SkillTable:  # type: ignore[type-arg]
-        state, which = pairs[:, 0], pairs[:, 1]
+        state, instance = pairs[:, 0], pairs[:, 1]
+        occurring, which = np.unique(instance, return_inverse=True)
         return SkillTable(
             space=self.space,
-            instances=self.domain.skill_instances,
+            instances=tuple(self.domain.skill_instances[i] for i in occurring),
             which=which,
-            success=self.success[state, which],
+            success=self.success[state, instance],
             before=self.labels[state],
-            after=self.labels[self.following[state, which]],
+            after=self.labels[self.following[state, instance]],
             ids=np.arange(len(pairs)),
             unchanged=np.zeros(len(pairs), dtype=bool),
         )

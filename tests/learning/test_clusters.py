@@ -10,10 +10,7 @@ from notebook import Notebook, make_domain
 from random_worlds import QUICK, notebooks
 
 from skillwrapper.learning.clusters import (
-    changed_literals,
     cluster_successes,
-    group_by_change,
-    touches_unknown,
 )
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifting import lift_change
@@ -39,9 +36,9 @@ def test_groups_are_those_of_brute_force(notebook: Notebook) -> None:
     for skill in notebook.domain.skills:
         for table in notebook.data(skill.name):
             expected = defaultdict(list)
-            for row, change in enumerate(table.change()):
+            for row, change in enumerate(table.change):
                 expected[table.which[row], change.tobytes()].append(row)
-            found = [g.rows.tolist() for g in group_by_change(table, np.ones(len(table), bool))]
+            found = [g.rows.tolist() for g in table.group(np.ones(len(table), bool))]
             assert found == list(expected.values())
 
 
@@ -57,7 +54,7 @@ def test_clusters_share_a_lifted_change_and_hold_every_success_once(notebook: No
         for cluster in clusters:
             for group in cluster.groups:
                 row = group.rows[0]
-                literals = changed_literals(group.table.space, group.table.change()[row])
+                literals = group.table.changed_literals(int(row))
                 lifting = lift_change(literals, group.instance.arguments)
                 assert lifting.change == cluster.change
 
@@ -83,7 +80,7 @@ def test_unknown_labels_of_other_things_are_no_matter() -> None:
     notebook.success("on(a, x)", "Take(r, a)", "holds(r, a) free(x) ?free(y)")
     (table,) = notebook.data("Take")
     assert (table.after == UNKNOWN).sum() == 1
-    assert not touches_unknown(table).any()
+    assert not table.hanging.any()
 
 
 def test_a_success_with_an_unknown_change_founds_no_cluster() -> None:
@@ -92,7 +89,7 @@ def test_a_success_with_an_unknown_change_founds_no_cluster() -> None:
     notebook.success("on(a, x)", "Take(r, a)", "?holds(r, a) free(x)")
     notebook.success("on(a, x)", "Take(r, a)", "holds(r, a) ?free(x)")
     (table,) = notebook.data("Take")
-    assert touches_unknown(table).tolist() == [True, True]
+    assert table.hanging.tolist() == [True, True]
     assert cluster_successes(notebook.data("Take")) == ()
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from notebook import Notebook, make_domain
 
+from skillwrapper.learning.dataset import Reading
 from skillwrapper.symbols import Predicate
 
 HELD = Predicate("held", ("item",))
+SUNNY = Predicate("sunny", ())
 
 
 def notebook(*, failures_change_nothing: bool = False) -> Notebook:
@@ -53,8 +55,8 @@ def test_they_are_copied_only_if_the_domain_says_so() -> None:
     book.failure("", "Take(r, a)", "held(a)")
     book.success("", "Take(r, a)", "held(a) #2")
     (table,) = book.data("Take")
-    assert not table.change()[0].any()
-    assert table.change()[1].any()
+    assert not table.change[0].any()
+    assert table.change[1].any()
     (scene,) = book.dataset.scenes
     assert len(book.dataset.observations(scene)) == 2
 
@@ -71,5 +73,38 @@ def test_changes_of_unknown_labels_are_undetermined() -> None:
     book = notebook()
     book.success("?held(a)", "Take(r, a)", "held(a) held(b)")
     (table,) = book.data("Take")
-    assert table.change().tolist() == [[0, 1]]
-    assert table.undetermined().tolist() == [[True, False]]
+    assert table.change.tolist() == [[0, 1]]
+    assert table.undetermined.tolist() == [[True, False]]
+
+
+def test_labels_are_read_once_and_then_kept() -> None:
+    book = notebook()
+    book.success("", "Take(r, a)", "held(a)")
+    reading = Reading(book.dataset, book)
+    (scene,) = book.dataset.scenes
+    assert reading.labels(scene, [HELD, SUNNY]).tolist() == [[0, 0, 0], [1, 0, 0]]
+    assert reading.labels(scene, [SUNNY, HELD]).tolist() == [[0, 0, 0], [0, 1, 0]]
+    assert reading.skill_data("Take", [HELD])[0].after.tolist() == [[1, 0]]
+    assert book.asked == [("held sunny", 2)]
+
+
+def test_new_pictures_are_read_when_they_are_asked_for() -> None:
+    book = notebook()
+    book.success("", "Take(r, a)", "held(a)")
+    reading = Reading(book.dataset, book)
+    (scene,) = book.dataset.scenes
+    reading.labels(scene, [HELD])
+    book.success("sunny()", "Take(r, b)", "held(b)")
+    assert reading.labels(scene, [HELD]).shape == (4, 2)
+    reading.labels(scene, [HELD, SUNNY])
+    assert book.asked == [("held", 2), ("held", 4), ("sunny", 4)]
+    assert reading.labels(scene, []).shape == (4, 0)
+
+
+def test_tables_remember_liftings_together() -> None:
+    book = notebook()
+    for _ in range(2):
+        book.success("", "Take(r, a)", "held(a)")
+    reading = Reading(book.dataset, book)
+    (first,), (second,) = (reading.skill_data("Take", [HELD]) for _ in range(2))
+    assert first.successes[0].lifting is second.successes[0].lifting

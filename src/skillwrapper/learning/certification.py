@@ -119,7 +119,7 @@ def _lifted_changes(
     prediction: TablePrediction, *, success: bool
 ) -> Iterator[tuple[int, LiftedChange]]:
     table = prediction.table
-    for group in prediction.successes if success else prediction.failures:
+    for group in table.successes if success else table.failures:
         for row in group.rows:
             if not (success and table.unchanged[row]):
                 yield int(table.ids[row]), group.lifting.change
@@ -148,10 +148,10 @@ def _similar(prediction: TablePrediction) -> NDArray[np.bool_]:
     nothing because no object meets their condition.
     """
     similar = np.zeros(len(prediction.table), dtype=bool)
-    for found in prediction.applications:
-        if not found.learned.cluster.is_no_op:
-            same = prediction.makes_change(found)
-            if found.learned.operator.conditional_effects:
-                same &= prediction.table.change()[found.rows].any(axis=1)
-            similar[found.rows] |= same
+    for learned, found in zip(prediction.operators, prediction.applications, strict=True):
+        if not learned.cluster.is_no_op:
+            rows = found.similar
+            if learned.operator.conditional_effects:
+                rows = rows[prediction.table.change[rows].any(axis=1)]
+            similar[rows] = True
     return similar

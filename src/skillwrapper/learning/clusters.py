@@ -4,45 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.learning.data import SkillData, SkillTable
-from skillwrapper.learning.lifting import LiftedChange, Lifting, lift_change
-from skillwrapper.symbols import AtomSpace, Labels, Literal
-from skillwrapper.world.skills import SkillInstance
-
-
-@dataclass(frozen=True, eq=False)
-class Group:
-    """Transitions of one skill instance that made the same ground change.
-
-    Attributes:
-        table: where they stand.
-        rows: their rows in the table, in order of time.
-        lifting: the change, lifted.
-    """
-
-    table: SkillTable
-    rows: NDArray[np.intp]
-    lifting: Lifting
-
-    @property
-    def before(self) -> Labels:
-        """Labels before the execution (rows, atoms)."""
-        return self.table.before[self.rows]
-
-    @property
-    def instance(self) -> SkillInstance:
-        """The skill instance that they share."""
-        return self.table.instances[int(self.table.which[self.rows[0]])]
-
-    @property
-    def types(self) -> tuple[tuple[str, ...], ...]:
-        """The types of the objects at the positions of the lifted change."""
-        types = _types(self.table.space)
-        return tuple(types[name] for name in self.lifting.objects)
+from skillwrapper.learning.data import Group, SkillData, SkillTable
+from skillwrapper.learning.lifting import LiftedChange
+from skillwrapper.symbols import Labels
+from skillwrapper.symbols.atom_index import Columns, taken_objects
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +27,7 @@ class Cluster:
     change: LiftedChange
     groups: tuple[Group, ...]
 
-    @property
+    @cached_property
     def ids(self) -> list[int]:
         """Numbers of the transitions, in order of time."""
         return sorted(int(i) for g in self.groups for i in g.table.ids[g.rows])
@@ -68,6 +38,52 @@ class Cluster:
         return all(bool(g.table.unchanged[g.rows].all()) for g in self.groups)
 
 
+@dataclass(frozen=True, eq=False)
+class Bundle:
+    """Groups of one table whose lifted changes have the same number of objects.
+
+    Attributes:
+        table: where they stand.
+        bindings: the numbers of the objects (groups, positions) of each group.
+        rows: the rows of all their transitions (rows,).
+        group: the group (rows,) of each of these.
+    """
+
+    table: SkillTable
+    bindings: Columns
+    rows: NDArray[np.intp]
+    group: NDArray[np.intp]
+
+    @property
+    def first(self) -> NDArray[np.intp]:
+        """The place (groups,) of each group's first transition among all."""
+        return np.searchsorted(self.group, np.arange(len(self.bindings)))
+
+    @property
+    def taken(self) -> NDArray[np.bool_]:
+        """Which objects of the scene (groups, objects) stand at a position."""
+        return taken_objects(self.bindings, len(self.table.space.objects))
+
+    def labels(self, columns: Columns) -> Labels:
+        """Labels before (rows, ...) in columns (groups, ...); ``NO_LABEL`` for no column."""
+        rows = self.rows.reshape(-1, *[1] * (columns.ndim - 1))
+        labels: Labels = self.table.padded[rows, columns[self.group]]
+        return labels
+
+
+def bundle_groups(groups: Sequence[Group]) -> Iterator[Bundle]:
+    """The groups of a cluster, table by table, to be looked at all at once."""
+    by_table: dict[SkillTable, list[Group]] = {}
+    for group in groups:
+        by_table.setdefault(group.table, []).append(group)
+    for table, own in by_table.items():
+        index = table.space.index
+        bindings = np.array([index.numbers(g.lifting.objects) for g in own], dtype=np.intp)
+        sizes = [len(g.rows) for g in own]
+        numbers = np.repeat(np.arange(len(own)), sizes)
+        yield Bundle(table, bindings, np.concatenate([g.rows for g in own]), numbers)
+
+
 def cluster_successes(data: SkillData) -> tuple[Cluster, ...]:
     """Cluster the successes of a skill by their lifted changes, sorted by change.
 
@@ -75,81 +91,6 @@ def cluster_successes(data: SkillData) -> tuple[Cluster, ...]:
     """
     found: dict[LiftedChange, list[Group]] = {}
     for table in data:
-        for group in group_by_change(table, table.success & ~touches_unknown(table)):
+        for group in table.successes:
             found.setdefault(group.lifting.change, []).append(group)
     return tuple(Cluster(change, tuple(found[change])) for change in sorted(found))
-
-
-def group_by_change(table: SkillTable, mask: NDArray[np.bool_]) -> Iterator[Group]:
-    """Group the masked transitions of a table by skill instance and ground change."""
-    rows = np.flatnonzero(mask)
-    if len(rows) == 0:
-        return
-    change = table.change()[rows]
-    types = _types(table.space)
-    for members in _equal_rows(table.which[rows], change):
-        first = int(members[0])
-        instance = table.instances[table.which[rows[first]]]
-        literals = changed_literals(table.space, change[first])
-        yield Group(table, rows[members], lift_change(literals, instance.arguments, types))
-
-
-def changed_literals(space: AtomSpace, change: Labels) -> list[Literal]:
-    """The literals that became true, from a signed change (atoms,)."""
-    return [Literal(space.atoms[i], bool(change[i] > 0)) for i in np.flatnonzero(change)]
-
-
-def touches_unknown(table: SkillTable) -> NDArray[np.bool_]:
-    """Whether the lifted change of a transition (n,) is not known.
-
-    That is so if an undetermined atom is nullary, or of an argument, or of an object that the
-    known changes connect to an argument.
-    """
-    undetermined = table.undetermined()
-    if not undetermined.any():
-        return np.zeros(len(table), dtype=bool)
-    terms = [frozenset(atom.terms) for atom in table.space.atoms]
-    touched = _of_arguments(table, undetermined, terms)
-    change = table.change()
-    for row in np.flatnonzero(undetermined.any(axis=1) & ~touched):
-        literals = changed_literals(table.space, change[row])
-        lifting = lift_change(literals, table.instances[table.which[row]].arguments)
-        touched[row] = any(
-            terms[i].intersection(lifting.objects) for i in undetermined[row].nonzero()[0]
-        )
-    return touched
-
-
-def _of_arguments(
-    table: SkillTable, marked: NDArray[np.bool_], terms: Sequence[frozenset[str]]
-) -> NDArray[np.bool_]:
-    """Whether a marked atom (n, atoms) of a transition (n,) is nullary or of an argument."""
-    found = np.zeros(len(table), dtype=bool)
-    for number, instance in enumerate(table.instances):
-        columns = [
-            i for i, own in enumerate(terms) if not own or own.intersection(instance.arguments)
-        ]
-        mine = table.which == number
-        found[mine] = marked[np.ix_(mine, columns)].any(axis=1)
-    return found
-
-
-def _types(space: AtomSpace) -> dict[str, tuple[str, ...]]:
-    return {o.name: o.types for o in space.objects}
-
-
-def _equal_rows(which: NDArray[np.intp], change: Labels) -> Iterator[NDArray[np.intp]]:
-    """Index sets of rows that agree in both, in the order of their first occurrence."""
-    packed = np.hstack(
-        [
-            which.astype(np.int32)[:, np.newaxis].view(np.uint8).reshape(len(which), -1),
-            np.packbits(change > 0, axis=1),
-            np.packbits(change < 0, axis=1),
-        ]
-    )
-    keys = np.ascontiguousarray(packed).view(f"V{packed.shape[1]}").ravel()
-    _, first, inverse = np.unique(keys, return_index=True, return_inverse=True)
-    order = np.argsort(inverse, kind="stable")
-    bounds = np.searchsorted(inverse[order], np.arange(len(first) + 1))
-    for number in np.argsort(first, kind="stable"):
-        yield order[bounds[number] : bounds[number + 1]]

@@ -17,11 +17,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from skillwrapper.learning.clusters import Cluster, Group, changed_literals
-from skillwrapper.learning.lifting import LiftedChange, lift_change
+from skillwrapper.learning.clusters import Bundle, Cluster, bundle_groups
+from skillwrapper.learning.data import Group
+from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.operators import LearnedOperator, operator_of
-from skillwrapper.learning.preconditions import OTHER, Pattern
+from skillwrapper.learning.preconditions import Pattern
 from skillwrapper.symbols import (
     TRUE,
     Atom,
@@ -31,28 +33,14 @@ from skillwrapper.symbols import (
     Predicate,
     Variable,
 )
+from skillwrapper.symbols.atom_index import ANY, Columns, taken_objects
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
 EACH = "?each"
 
 SignedPattern = tuple[bool, Pattern]
-"""Became true or false; the pattern has one ``OTHER``."""
-
-
-@dataclass(frozen=True)
-class _Case:
-    """Another object in a successful transition, and whether it changed.
-
-    Attributes:
-        held: the patterns that were true of it before.
-        types: its types.
-        changed: whether it made the change in question.
-    """
-
-    held: frozenset[Pattern]
-    types: frozenset[str]
-    changed: bool
+"""Became true or false; the pattern has one ``ANY``."""
 
 
 @dataclass(frozen=True)
@@ -60,11 +48,6 @@ class _Rule:
     change: SignedPattern
     condition: tuple[tuple[Pattern, bool], ...]
     types: frozenset[str]
-
-    def covers(self, case: _Case) -> bool:
-        """Whether it says that an object changes."""
-        met = all((pattern in case.held) is truth for pattern, truth in self.condition)
-        return met and self.types <= case.types
 
 
 def learn_with_conditional_effects(
@@ -101,17 +84,12 @@ def learn_with_conditional_effects(
     return tuple(learned)
 
 
-def _changed(group: Group) -> list[Literal]:
-    """The literals that became true in the transitions of a group."""
-    return changed_literals(group.table.space, group.table.change()[group.rows[0]])
-
-
 def _signed_pattern(literal: Literal, objects: Sequence[str]) -> tuple[SignedPattern, str] | None:
     """A changed literal as a pattern over objects and the one other object in it, if it is one."""
     others = [t for t in literal.atom.terms if t not in objects]
     if len(others) != 1:
         return None
-    terms = tuple(OTHER if t not in objects else objects.index(t) for t in literal.atom.terms)
+    terms = tuple(ANY if t not in objects else objects.index(t) for t in literal.atom.terms)
     return (literal.positive, (literal.atom.predicate, terms)), others[0]
 
 
@@ -119,7 +97,7 @@ def _ranging_changes(groups: Sequence[Group]) -> frozenset[SignedPattern]:
     """Changes around the arguments that some transition made with several other objects."""
     found: set[SignedPattern] = set()
     for group in groups:
-        patterns = (_signed_pattern(x, group.instance.arguments) for x in _changed(group))
+        patterns = (_signed_pattern(x, group.instance.arguments) for x in group.changed)
         counts = Counter(p[0] for p in patterns if p is not None)
         found.update(change for change, number in counts.items() if number > 1)
     return frozenset(found)
@@ -132,12 +110,11 @@ def _cluster_by_core(
     found: dict[LiftedChange, list[Group]] = {}
     for group in groups:
         arguments = group.instance.arguments
-        changed = _changed(group)
+        changed = group.changed
         patterns = (_signed_pattern(literal, arguments) for literal in changed)
         moved = {p[1] for p in patterns if p is not None and p[0] in ranging}
         core = [literal for literal in changed if not moved.intersection(literal.atom.terms)]
-        types = {o.name: o.types for o in group.table.space.objects}
-        lifting = lift_change(core, arguments, types)
+        lifting = group.table.lifter.lift(core, arguments, group.table.types)
         found.setdefault(lifting.change, []).append(replace(group, lifting=lifting))
     return tuple(Cluster(change, tuple(found[change])) for change in sorted(found))
 
@@ -146,7 +123,7 @@ def _find_rules(cluster: Cluster, predicates: Sequence[Predicate]) -> tuple[_Rul
     """Rules for all that happened to objects outside the core; None if there are none."""
     changes: set[SignedPattern] = set()
     for group in cluster.groups:
-        for literal in _changed(group):
+        for literal in group.changed:
             if not set(literal.atom.terms) <= set(group.lifting.objects):
                 pattern = _signed_pattern(literal, group.lifting.objects)
                 if pattern is None:
@@ -155,7 +132,8 @@ def _find_rules(cluster: Cluster, predicates: Sequence[Predicate]) -> tuple[_Rul
     size = len(cluster.groups[0].lifting.objects)
     patterns = tuple(_patterns(predicates, size))
     slots = {p.name: p.types for p in predicates}
-    rules = [_find_rule(cluster, patterns, slots, change) for change in sorted(changes)]
+    scenes = [_Others.of(bundle, patterns, size) for bundle in bundle_groups(cluster.groups)]
+    rules = [_find_rule(scenes, patterns, slots, change) for change in sorted(changes)]
     found = tuple(rule for rule in rules if rule is not None)
     return found if len(found) == len(rules) else None
 
@@ -164,11 +142,53 @@ def _patterns(predicates: Sequence[Predicate], size: int) -> Iterator[Pattern]:
     for predicate in predicates:
         for place in range(predicate.arity):
             for terms in itertools.permutations(range(size), predicate.arity - 1):
-                yield predicate.name, (*terms[:place], OTHER, *terms[place:])
+                yield predicate.name, (*terms[:place], ANY, *terms[place:])
+
+
+@dataclass(frozen=True, eq=False)
+class _Others:
+    """All objects of a scene that are no arguments, before the transitions of a cluster.
+
+    Attributes:
+        bundle: the transitions.
+        columns: the columns (groups, patterns, objects) of the patterns; -1 for no grounding.
+        held: whether a pattern was true of an object (rows, objects, patterns).
+    """
+
+    bundle: Bundle
+    columns: Columns
+    held: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, bundle: Bundle, patterns: Sequence[Pattern], size: int) -> _Others:
+        index = bundle.table.space.index
+        columns = index.open_columns(index.patterns(patterns, size), bundle.bindings)
+        arguments = bundle.table.arguments[bundle.table.which[bundle.rows[bundle.first]]]
+        others = ~taken_objects(arguments, len(bundle.table.space.objects))
+        columns = np.where(others[:, np.newaxis, :], columns, -1)
+        return cls(bundle, columns, (bundle.labels(columns) == TRUE).transpose(0, 2, 1))
+
+    def cases(self, place: int, sign: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Objects that could have made a change, and those that did: (rows, objects) each.
+
+        Of objects that changed, all labels are known: else the group would have founded no
+        cluster.
+        """
+        columns = self.columns[:, place]
+        first = self.bundle.rows[self.bundle.first]
+        did = self.bundle.table.change[first[:, np.newaxis], columns] == sign
+        could = columns >= 0
+        did = could & did
+        return could[self.bundle.group], did[self.bundle.group]
+
+    def types(self, marked: NDArray[np.bool_]) -> list[frozenset[str]]:
+        """The types of those objects of the scene that are marked (rows, objects) in any row."""
+        things = self.bundle.table.space.objects
+        return [frozenset(things[i].types) for i in np.unique(np.nonzero(marked)[1])]
 
 
 def _find_rule(
-    cluster: Cluster,
+    scenes: Sequence[_Others],
     patterns: Sequence[Pattern],
     slots: Mapping[str, tuple[str, ...]],
     change: SignedPattern,
@@ -178,72 +198,55 @@ def _find_rule(
     An object that is said to change and does not is as wrong as the reverse, so nothing speaks
     for the most specific condition. None if no condition tells them apart.
     """
-    cases = [case for group in cluster.groups for case in _cases(group, patterns, change)]
-    changed = [case for case in cases if case.changed]
-    if not changed:
+    became, wanted = change
+    cases = [scene.cases(patterns.index(wanted), 1 if became else -1) for scene in scenes]
+    pairs = list(zip(scenes, cases, strict=True))
+    changed = np.concatenate([scene.held[did] for scene, (_, did) in pairs])
+    if not len(changed):
         return None
-    always = frozenset.intersection(*(case.held for case in changed))
-    never = frozenset(patterns) - frozenset.union(*(case.held for case in changed))
-    predicate, terms = change[1]
-    rule = _Rule(
-        change,
-        tuple(sorted([*((p, True) for p in always), *((p, False) for p in never)])),
-        frozenset.intersection(*(case.types for case in changed)),
-    )
-    others = [case for case in cases if not case.changed]
-    if any(rule.covers(case) for case in others):
-        return None
-    wider = frozenset({slots[predicate][terms.index(OTHER)]})
-    return _simplest([replace(rule, types=wider), rule], others)
+    condition = {int(i): True for i in np.flatnonzero(changed.all(axis=0))}
+    condition |= {int(i): False for i in np.flatnonzero(~changed.any(axis=0))}
+    predicate, terms = wanted
+    widest = frozenset({slots[predicate][terms.index(ANY)]})
+    types_seen = (t for scene, (_, did) in pairs for t in scene.types(did))
+    for types in (widest, frozenset.intersection(*types_seen)):
+        others = [
+            scene.held[could & ~did & scene.bundle.table.space.index.of_types(types)]
+            for scene, (could, did) in pairs
+        ]
+        unchanged = np.concatenate(others)
+        if not _holds_somewhere(condition, unchanged):
+            simplest = _simplest(condition, patterns, unchanged)
+            return _Rule(change, tuple(sorted((patterns[i], t) for i, t in simplest.items())), types)
+    return None
 
 
-def _simplest(rules: Sequence[_Rule], others: Sequence[_Case]) -> _Rule:
-    """The first rule that covers no other case, without the literals that it can do without.
+def _simplest(
+    condition: dict[int, bool], patterns: Sequence[Pattern], unchanged: NDArray[np.bool_]
+) -> dict[int, bool]:
+    """A condition that holds of nothing unchanged, without what it can do without.
 
     Properties go before relations to the core's objects, and what is false before what is true.
     """
-    rule = next(rule for rule in rules if not any(rule.covers(case) for case in others))
-    for literal in sorted(rule.condition, key=lambda c: (len(c[0][1]), c[1], c)):
-        left = tuple(c for c in rule.condition if c != literal)
-        simpler = replace(rule, condition=left)
-        if left and not any(simpler.covers(case) for case in others):
-            rule = simpler
-    return rule
+    left = dict(condition)
+    for number in sorted(condition, key=lambda i: (len(patterns[i][1]), condition[i], patterns[i])):
+        fewer = {i: truth for i, truth in left.items() if i != number}
+        if fewer and not _holds_somewhere(fewer, unchanged):
+            left = fewer
+    return left
 
 
-def _cases(group: Group, patterns: Sequence[Pattern], change: SignedPattern) -> Iterator[_Case]:
-    """Every object that is no argument, in every different state before the group's transitions.
-
-    Of objects that changed, all labels are known: else the group would have founded no cluster.
-    """
-    became, wanted = change
-    signed = group.table.change()[group.rows[0]]
-    for other in group.table.space.objects:
-        columns = _columns(group, patterns, other.name)
-        if other.name in group.instance.arguments or wanted not in columns:
-            continue
-        did = bool(signed[columns[wanted]] == (1 if became else -1))
-        for state in np.unique(group.before[:, list(columns.values())], axis=0):
-            held = (p for p, label in zip(columns, state, strict=True) if label == TRUE)
-            yield _Case(frozenset(held), frozenset(other.types), did)
-
-
-def _columns(group: Group, patterns: Sequence[Pattern], other: str) -> dict[Pattern, int]:
-    """The columns of the patterns that have a grounding with an object."""
-    objects, space = group.lifting.objects, group.table.space
-    found = {}
-    for name, terms in patterns:
-        atom = Atom(name, tuple(other if t == OTHER else objects[t] for t in terms))
-        if atom in space.column:
-            found[name, terms] = space.column[atom]
-    return found
+def _holds_somewhere(condition: Mapping[int, bool], cases: NDArray[np.bool_]) -> bool:
+    """Whether some case (n, patterns) meets a condition."""
+    found: NDArray[np.bool_] = (cases[:, list(condition)] == list(condition.values())).all(axis=1)
+    return bool(found.any())
 
 
 def _effect(domain: Domain, operator: Operator, rule: _Rule) -> ConditionalEffect:
     names = [v.name for v in operator.parameters]
 
     def atom(pattern: Pattern) -> Atom:
-        return Atom(pattern[0], tuple(EACH if t == OTHER else names[t] for t in pattern[1]))
+        return Atom(pattern[0], tuple(EACH if t == ANY else names[t] for t in pattern[1]))
 
     became, pattern = rule.change
     return ConditionalEffect(

@@ -6,22 +6,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from skillwrapper.learning.data import SkillData
-from skillwrapper.learning.dataset import Dataset, TruthSource
+from skillwrapper.learning.dataset import Dataset, Reading, TruthSource
 from skillwrapper.learning.inconsistencies import (
     Inconsistency,
     Witness,
+    Wrong,
     count_valid_effects,
     count_valid_executability,
-    find_inconsistencies,
+    describe_wrong,
+    find_wrong,
 )
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.learning.remedies import learn_deterministic_operators
-from skillwrapper.symbols import UNKNOWN, AbstractModel, AtomSpace, Predicate
+from skillwrapper.symbols import FALSE, TRUE, AbstractModel, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -37,13 +37,25 @@ class SkillFit:
         skill: its name.
         operators: its operators, one a cluster (or a part of a cluster, D5).
         predictions: what they say of the skill's own transitions.
-        inconsistencies: all, in order of kind and time.
     """
 
     skill: str
     operators: tuple[LearnedOperator, ...]
     predictions: tuple[TablePrediction, ...]
-    inconsistencies: tuple[Inconsistency, ...]
+
+    @cached_property
+    def witnesses(self) -> frozenset[Witness]:
+        """All inconsistencies, in a form that can be compared across vocabularies."""
+        return frozenset((wrong.kind, self.skill, wrong.culprit) for wrong in self._wrong)
+
+    @cached_property
+    def inconsistencies(self) -> tuple[Inconsistency, ...]:
+        """All, in order of kind and time."""
+        return describe_wrong(self.skill, self.predictions, self._wrong)
+
+    @cached_property
+    def _wrong(self) -> tuple[Wrong, ...]:
+        return find_wrong(self.predictions)
 
     @cached_property
     def undecided(self) -> frozenset[int]:
@@ -85,7 +97,7 @@ class Fit:
     @cached_property
     def witnesses(self) -> frozenset[Witness]:
         """All inconsistencies, in a form that can be compared across vocabularies."""
-        return frozenset(i.witness for i in self.inconsistencies)
+        return frozenset().union(*(fit.witnesses for fit in self.skills.values()))
 
     @cached_property
     def operators(self) -> tuple[LearnedOperator, ...]:
@@ -135,6 +147,7 @@ class Fitter:
         self.domain = domain
         self.dataset = dataset
         self.truth = truth
+        self.reading = Reading(dataset, truth)
         self._absences = absences
         self._fits: dict[tuple[str, int, tuple[Predicate, ...]], SkillFit] = {}
         self._tautology: dict[tuple[Predicate, int], bool] = {}
@@ -151,9 +164,8 @@ class Fitter:
         if key not in self._tautology:
             seen: set[int] = set()
             for scene in self.dataset.scenes:
-                space = AtomSpace((predicate,), self.dataset.objects(scene))
-                labels = self.truth.labels(space, self.dataset.observations(scene))
-                seen |= {int(v) for v in np.unique(labels)} - {UNKNOWN}
+                labels = self.reading.labels(scene, [predicate])
+                seen |= {value for value in (TRUE, FALSE) if (labels == value).any()}
             self._tautology[key] = len(seen) < 2
         return self._tautology[key]
 
@@ -162,6 +174,7 @@ class Fitter:
         size = {s.name: len(self.dataset.numbers_of(s.name)) for s in self.domain.skills}
         self._fits = {k: v for k, v in self._fits.items() if size[k[0]] == k[1]}
         self._tautology = {k: v for k, v in self._tautology.items() if k[1] == len(self.dataset)}
+        self.reading.forget_spaces()
 
     def _fit_skill(self, skill: Skill, predicates: tuple[Predicate, ...]) -> SkillFit:
         key = (skill.name, len(self.dataset.numbers_of(skill.name)), predicates)
@@ -169,7 +182,7 @@ class Fitter:
             self._fits[key] = fit_skill(
                 self.domain,
                 skill,
-                self.dataset.skill_data(skill.name, predicates, self.truth),
+                self.reading.skill_data(skill.name, predicates),
                 predicates,
                 absences=self._absences,
             )
@@ -188,6 +201,4 @@ def fit_skill(
     operators, predictions = learn_deterministic_operators(
         domain, skill, data, predicates, absences=absences
     )
-    return SkillFit(
-        skill.name, operators, predictions, find_inconsistencies(skill.name, predictions)
-    )
+    return SkillFit(skill.name, operators, predictions)

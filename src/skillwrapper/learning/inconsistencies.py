@@ -6,7 +6,7 @@ Conditions 1 and 2 of the paper (Section 3.2), determinism (DESIGN.md D5) and un
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -51,18 +51,49 @@ class Inconsistency:
         return (self.kind, self.skill, self.culprit)
 
 
-def find_inconsistencies(
-    skill: str, predictions: Sequence[TablePrediction]
-) -> tuple[Inconsistency, ...]:
-    """All inconsistencies of a skill, one for every transition that is wrong, by kind and table."""
-    partners = _Partners(predictions)
+@dataclass(frozen=True, eq=False)
+class Wrong:
+    """A transition that is wrong, before it is said of which cause.
+
+    Attributes:
+        kind: which of the four.
+        prediction: of the transition's table.
+        row: its row there.
+        change: the lifted change that the model takes for right.
+        members: numbers of the transitions that made this change; empty for UNEXPLAINED.
+        unexplained: for UNEXPLAINED the changed atoms connected to nothing.
+    """
+
+    kind: InconsistencyKind
+    prediction: TablePrediction
+    row: int
+    change: LiftedChange
+    members: Sequence[int]
+    unexplained: tuple[Atom, ...] = ()
+
+    @property
+    def culprit(self) -> int:
+        """The number of the transition."""
+        return int(self.prediction.table.ids[self.row])
+
+
+def find_wrong(predictions: Sequence[TablePrediction]) -> tuple[Wrong, ...]:
+    """All transitions of a skill that are wrong, once for every kind, by kind and table."""
     found = [
-        *_preconditions(skill, predictions, partners),
-        *_effects(skill, predictions, partners),
-        *_determinism(skill, predictions, partners),
-        *_unexplained(skill, predictions),
+        *_preconditions(predictions),
+        *_effects(predictions),
+        *_determinism(predictions),
+        *_unexplained(predictions),
     ]
     return tuple(found)
+
+
+def describe_wrong(
+    skill: str, predictions: Sequence[TablePrediction], found: Iterable[Wrong]
+) -> tuple[Inconsistency, ...]:
+    """An inconsistency for each transition that is wrong."""
+    partners = _Partners(predictions)
+    return tuple(_describe(skill, wrong, partners) for wrong in found)
 
 
 def distinct_causes(found: Iterable[Inconsistency]) -> tuple[Inconsistency, ...]:
@@ -88,79 +119,72 @@ class _Partners:
         return min(members, key=lambda i: (self._instance[i] != own, abs(i - to), i))
 
 
-def _preconditions(
-    skill: str, predictions: Sequence[TablePrediction], partners: _Partners
-) -> Iterator[Inconsistency]:
+def _describe(skill: str, wrong: Wrong, partners: _Partners) -> Inconsistency:
+    table, culprit = wrong.prediction.table, wrong.culprit
+    instance = table.instances[table.which[wrong.row]]
+    state = lifted_state(table.space, table.before[wrong.row], instance)
+    partner = partners.nearest(wrong.members, culprit) if wrong.members else None
+    failed = wrong.kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
+    return Inconsistency(
+        wrong.kind,
+        skill,
+        first=partner if failed and partner is not None else culprit,
+        second=culprit if failed else partner,
+        culprit=culprit,
+        identity=(skill, wrong.kind, state, wrong.change),
+        unexplained=wrong.unexplained,
+    )
+
+
+def _preconditions(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
     """Condition 1: a failure that some operator calls applicable."""
-    kind = InconsistencyKind.PRECONDITION
     for prediction in predictions:
-        table = prediction.table
         blamed: dict[int, LearnedOperator] = {}
-        for found in prediction.applications:
-            for row in found.rows[found.applicability == TRUE]:
-                if not table.success[row]:
-                    blamed.setdefault(int(row), found.learned)
-        for row in sorted(blamed):
-            culprit = int(table.ids[row])
-            cluster = blamed[row].cluster
-            success = partners.nearest(cluster.ids, culprit)
-            identity = _identity(skill, kind, prediction, row, cluster.change)
-            yield Inconsistency(kind, skill, success, culprit, culprit, identity)
+        for learned, found in zip(prediction.operators, prediction.applications, strict=True):
+            rows = found.rows[found.applicability == TRUE]
+            for row in rows[~prediction.table.success[rows]]:
+                blamed.setdefault(int(row), learned)
+        yield from _blame(InconsistencyKind.PRECONDITION, prediction, blamed)
 
 
-def _effects(
-    skill: str, predictions: Sequence[TablePrediction], partners: _Partners
-) -> Iterator[Inconsistency]:
+def _effects(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
     """Condition 2: a failure with the same lifted change as a success that changed something."""
-    kind = InconsistencyKind.EFFECT
     by_change = _changes_of_successes(predictions)
     for prediction in predictions:
-        for group in prediction.failures:
+        for group in prediction.table.failures:
             change = group.lifting.change
             for row in group.rows if change in by_change else ():
-                culprit = int(prediction.table.ids[row])
-                identity = _identity(skill, kind, prediction, int(row), change)
-                success = partners.nearest(by_change[change], culprit)
-                yield Inconsistency(kind, skill, success, culprit, culprit, identity)
+                kind = InconsistencyKind.EFFECT
+                yield Wrong(kind, prediction, int(row), change, by_change[change])
 
 
-def _determinism(
-    skill: str, predictions: Sequence[TablePrediction], partners: _Partners
-) -> Iterator[Inconsistency]:
+def _determinism(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
     """D5: a success for which an applicable operator predicts another change."""
-    kind = InconsistencyKind.DETERMINISM
     for prediction in predictions:
         blamed: dict[int, LearnedOperator] = {}
-        for found in prediction.applications:
-            for row in prediction.mispredicted(found):
-                blamed.setdefault(int(row), found.learned)
-        for row in sorted(blamed):
-            culprit = int(prediction.table.ids[row])
-            cluster = blamed[row].cluster
-            other = partners.nearest(cluster.ids, culprit)
-            identity = _identity(skill, kind, prediction, row, cluster.change)
-            yield Inconsistency(kind, skill, culprit, other, culprit, identity)
+        for learned, found in zip(prediction.operators, prediction.applications, strict=True):
+            for row in found.mispredicted:
+                blamed.setdefault(int(row), learned)
+        yield from _blame(InconsistencyKind.DETERMINISM, prediction, blamed)
 
 
-def _unexplained(skill: str, predictions: Sequence[TablePrediction]) -> Iterator[Inconsistency]:
+def _blame(
+    kind: InconsistencyKind, prediction: TablePrediction, blamed: Mapping[int, LearnedOperator]
+) -> Iterator[Wrong]:
+    for row in sorted(blamed):
+        cluster = blamed[row].cluster
+        yield Wrong(kind, prediction, row, cluster.change, cluster.ids)
+
+
+def _unexplained(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
     """D1: a success that changed an atom connected to no argument, and no operator says so."""
     kind = InconsistencyKind.UNEXPLAINED
     for prediction in predictions:
-        for group in prediction.successes:
-            if not group.lifting.unexplained:
-                continue
-            names = tuple(sorted({(False, a.predicate, ()) for a in group.lifting.unexplained}))
-            for row in group.rows[~prediction.accounted[group.rows]]:
-                culprit = int(prediction.table.ids[row])
-                yield Inconsistency(
-                    kind,
-                    skill,
-                    culprit,
-                    None,
-                    culprit,
-                    _identity(skill, kind, prediction, int(row), names),
-                    group.lifting.unexplained,
-                )
+        for group in prediction.table.successes:
+            atoms = group.lifting.unexplained
+            names = tuple(sorted({(False, a.predicate, ()) for a in atoms}))
+            for row in group.rows[~prediction.accounted[group.rows]] if atoms else ():
+                yield Wrong(kind, prediction, int(row), names, (), atoms)
 
 
 def _changes_of_successes(
@@ -174,23 +198,11 @@ def _changes_of_successes(
     found: dict[LiftedChange, list[int]] = {}
     for prediction in predictions:
         table = prediction.table
-        for group in prediction.successes:
+        for group in prediction.table.successes:
             visible = table.ids[group.rows[~table.unchanged[group.rows]]]
             if len(visible):
                 found.setdefault(group.lifting.change, []).extend(map(int, visible))
     return found
-
-
-def _identity(
-    skill: str,
-    kind: InconsistencyKind,
-    prediction: TablePrediction,
-    row: int,
-    change: LiftedChange,
-) -> Identity:
-    table = prediction.table
-    instance = table.instances[table.which[row]]
-    return (skill, kind, lifted_state(table.space, table.before[row], instance), change)
 
 
 def count_valid_executability(predictions: Sequence[TablePrediction]) -> tuple[int, int]:
@@ -213,11 +225,11 @@ def count_valid_effects(predictions: Sequence[TablePrediction]) -> tuple[int, in
     changes = _changes_of_successes(predictions)
     valid = decided = 0
     for prediction in predictions:
-        for group in prediction.successes:
+        for group in prediction.table.successes:
             decided += len(group.rows)
             unexplained = bool(group.lifting.unexplained)
             valid += int(prediction.accounted[group.rows].sum()) if unexplained else len(group.rows)
-        for group in prediction.failures:
+        for group in prediction.table.failures:
             decided += len(group.rows)
             valid += 0 if group.lifting.change in changes else len(group.rows)
     return valid, decided

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
-from skillwrapper.learning.clusters import changed_literals
+from skillwrapper.learning.data import changed_literals
 from skillwrapper.learning.fitting import OPERATOR_COST, Fit, Fitter, SkillFit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -302,11 +302,8 @@ class Inventor:
 
     def _label(self, predicates: Sequence[Predicate]) -> None:
         """Label all pictures for all candidates in one go."""
-        dataset = self._fitter.dataset
-        if predicates:
-            for scene in dataset.scenes:
-                space = AtomSpace(tuple(predicates), dataset.objects(scene))
-                self._fitter.truth.labels(space, dataset.observations(scene))
+        for scene in self._fitter.dataset.scenes if predicates else ():
+            self._fitter.reading.labels(scene, predicates)
 
     def _trial(
         self, inconsistency: Inconsistency, predicate: Predicate, *, dormant: bool
@@ -325,9 +322,8 @@ class Inventor:
     def _decides_one(self, inconsistency: Inconsistency, fit: SkillFit) -> bool:
         """Whether a transition of the same cause is no longer wrong and hangs on no unknown."""
         now = self._fitter.fit(self._vocabulary.active).skills[inconsistency.skill]
-        left = {i.witness for i in fit.inconsistencies}
         return any(
-            i.witness not in left and i.culprit not in fit.undecided
+            i.witness not in fit.witnesses and i.culprit not in fit.undecided
             for i in now.inconsistencies
             if i.identity == inconsistency.identity
         )

@@ -34,6 +34,25 @@ class Lifting:
     unexplained: tuple[Atom, ...]
 
 
+class Lifter:
+    """Lifts changes and remembers them; of one domain, where a name stands for one object."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[tuple[str, ...], tuple[Literal, ...]], Lifting] = {}
+
+    def lift(
+        self,
+        changed: Iterable[Literal],
+        arguments: tuple[str, ...],
+        types: Mapping[str, tuple[str, ...]],
+    ) -> Lifting:
+        """As ``lift_change``."""
+        key = (arguments, tuple(changed))
+        if key not in self._known:
+            self._known[key] = lift_change(key[1], arguments, types)
+        return self._known[key]
+
+
 def lift_change(
     changed: Iterable[Literal],
     arguments: Sequence[str],

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from skillwrapper.learning.clusters import Cluster, Group, cluster_successes
-from skillwrapper.learning.data import SkillData
+from skillwrapper.learning.clusters import Cluster, cluster_successes
+from skillwrapper.learning.data import Group, SkillData
 from skillwrapper.learning.preconditions import (
-    OTHER,
     Evidence,
     ExistentialContext,
     Pattern,
     gather_evidence,
 )
 from skillwrapper.symbols import Absence, Atom, Literal, Operator, Predicate, Variable
+from skillwrapper.symbols.atom_index import ANY
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -132,7 +132,7 @@ def _absence(pattern: Pattern, names: Sequence[str]) -> Absence:
 
 def _atom(pattern: Pattern, names: Sequence[str], other: str = "") -> Atom:
     predicate, terms = pattern
-    return Atom(predicate, tuple(other if t == OTHER else names[t] for t in terms))
+    return Atom(predicate, tuple(other if t == ANY else names[t] for t in terms))
 
 
 def _effects(cluster: Cluster, names: Sequence[str], *, positive: bool) -> frozenset[Atom]:

@@ -13,24 +13,24 @@ restriction, Section 3.3); literals between context objects are added only on de
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.learning.clusters import Group
-from skillwrapper.symbols import FALSE, TRUE, Atom, AtomSpace, Predicate
-
-OTHER = -1
-"""The position of the quantified object in a pattern."""
+from skillwrapper.learning.clusters import Bundle, bundle_groups
+from skillwrapper.learning.data import NO_LABEL, Group
+from skillwrapper.symbols import FALSE, TRUE, Predicate
+from skillwrapper.symbols.atom_index import ANY
 
 Pattern = tuple[str, tuple[int, ...]]
-"""A predicate with the positions of its terms; at most one of them is ``OTHER``."""
+"""A predicate with the positions of its terms; at most one of them is ``ANY``, which stands for
+the quantified object."""
 
 _Witnesses = list[NDArray[np.bool_]]
-"""For every group the objects of the scene (rows, objects) that an existential context may be."""
+"""For every table the objects of the scene (rows, objects) that an existential context may be."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class ExistentialContext:
     """Some other object that stood in relations in every transition.
 
     Attributes:
-        patterns: the relations, ``OTHER`` at the place of the object.
+        patterns: the relations, ``ANY`` at the place of the object.
         types: the most specific types of which such an object was always there; closed upwards.
     """
 
@@ -78,19 +78,17 @@ def gather_evidence(
         between_context: also literals between context objects (DESIGN.md D5).
         absences: whether universal absences are looked for (DESIGN.md D2).
     """
+    bundles = tuple(bundle_groups(groups))
     size = len(groups[0].lifting.objects)
-    literals = _common_literals(
-        groups, tuple(_plain_patterns(predicates, arity, size, between_context))
+    plain = tuple(_plain_patterns(predicates, arity, size, between_context))
+    patterns = tuple(_open_patterns(predicates, arity))
+    relations = [_Relations.of(bundle, patterns, size) for bundle in bundles]
+    absent = _never(relations) if absences else []
+    return Evidence(
+        _common_literals(bundles, plain, size),
+        tuple(patterns[i] for i in absent),
+        _merge_existentials(bundles, patterns, relations),
     )
-    absent: list[Pattern] = []
-    witnessed: list[Pattern] = []
-    for pattern in _open_patterns(predicates, arity):
-        verdict = _judge_open(groups, pattern)
-        if verdict is False and absences:
-            absent.append(pattern)
-        elif verdict is True:
-            witnessed.append(pattern)
-    return Evidence(literals, tuple(absent), _merge_existentials(groups, witnessed))
 
 
 def _plain_patterns(
@@ -108,76 +106,65 @@ def _open_patterns(predicates: Sequence[Predicate], arity: int) -> Iterator[Patt
             continue
         for place in range(predicate.arity):
             for terms in itertools.permutations(range(arity), predicate.arity - 1):
-                yield predicate.name, (*terms[:place], OTHER, *terms[place:])
+                yield predicate.name, (*terms[:place], ANY, *terms[place:])
 
 
 def _common_literals(
-    groups: Sequence[Group], patterns: tuple[Pattern, ...]
+    bundles: Sequence[Bundle], patterns: Sequence[Pattern], size: int
 ) -> tuple[tuple[Pattern, bool], ...]:
     seen_true = np.zeros(len(patterns), dtype=bool)
     seen_false = np.zeros(len(patterns), dtype=bool)
     everywhere = np.ones(len(patterns), dtype=bool)
-    for group in groups:
-        columns = _pattern_columns(group.table.space, group.lifting.objects, patterns)
-        present = columns >= 0
-        everywhere &= present
-        values = group.before[:, columns[present]]
-        seen_true[present] |= (values == TRUE).any(axis=0)
-        seen_false[present] |= (values == FALSE).any(axis=0)
+    for bundle in bundles:
+        index = bundle.table.space.index
+        columns = index.columns(index.patterns(patterns, size), bundle.bindings)
+        everywhere &= (columns >= 0).all(axis=0)
+        values = bundle.labels(columns)
+        seen_true |= (values == TRUE).any(axis=0)
+        seen_false |= (values == FALSE).any(axis=0)
     decided = everywhere & (seen_true ^ seen_false)
-    return tuple((patterns[i], bool(seen_true[i])) for i in np.flatnonzero(decided))
+    return tuple((patterns[i], bool(seen_true[i])) for i in np.flatnonzero(decided).tolist())
 
 
-@lru_cache(maxsize=65536)
-def _pattern_columns(
-    space: AtomSpace, objects: tuple[str, ...], patterns: tuple[Pattern, ...]
-) -> NDArray[np.intp]:
-    """Columns of the patterns under a binding; -1 where it is no grounding (wrong types)."""
-    return np.array(
-        [
-            space.column.get(Atom(name, tuple(objects[t] for t in terms)), -1)
-            for name, terms in patterns
-        ],
-        dtype=np.intp,
-    )
+@dataclass(frozen=True, eq=False)
+class _Relations:
+    """Which other objects stood in the relations of open patterns, in one table.
+
+    Attributes:
+        witnesses: (rows, patterns, objects) whether the object stood in the relation.
+        always: (patterns,) whether in every transition some object did.
+        never: (patterns,) whether in no transition any object did.
+        seen_none: (patterns,) whether in some transition surely no object did.
+    """
+
+    witnesses: NDArray[np.bool_]
+    always: NDArray[np.bool_]
+    never: NDArray[np.bool_]
+    seen_none: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, bundle: Bundle, patterns: Sequence[Pattern], size: int) -> _Relations:
+        index = bundle.table.space.index
+        columns = index.open_columns(index.patterns(patterns, size), bundle.bindings)
+        columns = np.where(bundle.taken[:, np.newaxis, :], -1, columns)
+        values = bundle.labels(columns)
+        witnesses = values == TRUE
+        witnessed = witnesses.any(axis=2)
+        none = ((values == FALSE) | (values == NO_LABEL)).all(axis=2)
+        grounded = np.any(columns >= 0, axis=2)
+        none &= grounded[bundle.group]
+        return cls(witnesses, witnessed.all(axis=0), ~witnessed.any(axis=0), none.any(axis=0))
 
 
-@lru_cache(maxsize=65536)
-def _open_columns(
-    space: AtomSpace, objects: tuple[str, ...], pattern: Pattern
-) -> tuple[tuple[int, int], ...]:
-    """(index of the other object in the scene, column) of the groundings of an open pattern."""
-    name, terms = pattern
-    found = []
-    for number, other in enumerate(space.objects):
-        if other.name in objects:
-            continue
-        atom = Atom(name, tuple(other.name if t == OTHER else objects[t] for t in terms))
-        if atom in space.column:
-            found.append((number, space.column[atom]))
-    return tuple(found)
-
-
-def _judge_open(groups: Sequence[Group], pattern: Pattern) -> bool | None:
-    """True: always some other object; False: never one (seen at least once); None: neither."""
-    always = never = True
-    seen_none = False
-    for group in groups:
-        columns = [c for _, c in _open_columns(group.table.space, group.lifting.objects, pattern)]
-        values = group.before[:, columns]
-        witnessed = (values == TRUE).any(axis=1)
-        always &= bool(witnessed.all())
-        never &= not witnessed.any()
-        seen_none |= bool(columns) and bool((values == FALSE).all(axis=1).any())
-        if not always and not never:
-            return None
-    if always:
-        return True
-    return False if seen_none else None
+def _never(relations: Sequence[_Relations]) -> list[int]:
+    """The patterns in which no other object ever stood, seen at least once to hold for none."""
+    never = np.logical_and.reduce([r.never for r in relations])
+    seen = np.logical_or.reduce([r.seen_none for r in relations])
+    return [int(i) for i in np.flatnonzero(never & seen)]
 
 
 def _merge_existentials(
-    groups: Sequence[Group], patterns: Sequence[Pattern]
+    bundles: Sequence[Bundle], patterns: Sequence[Pattern], relations: Sequence[_Relations]
 ) -> tuple[ExistentialContext, ...]:
     """One context object for all patterns that one object can always meet together.
 
@@ -186,32 +173,23 @@ def _merge_existentials(
     """
     merged: list[list[Pattern]] = []
     contexts: list[_Witnesses] = []
-    for pattern in patterns:
-        own = [_witnesses(group, pattern) for group in groups]
+    for place in np.flatnonzero(np.logical_and.reduce([r.always for r in relations])).tolist():
+        own = [r.witnesses[:, place] for r in relations]
         for number, known in enumerate(contexts):
             both = [a & b for a, b in zip(known, own, strict=True)]
             if _distinct(both, _without(contexts, number)):
-                merged[number].append(pattern)
+                merged[number].append(patterns[place])
                 contexts[number] = both
                 break
         else:
             if _distinct(own, contexts):
-                merged.append([pattern])
+                merged.append([patterns[place]])
                 contexts.append(own)
     found = []
     for number, known_patterns in enumerate(merged):
-        types, contexts[number] = _common_types(groups, contexts, number)
+        types, contexts[number] = _common_types(bundles, contexts, number)
         found.append(ExistentialContext(tuple(known_patterns), types))
     return tuple(found)
-
-
-def _witnesses(group: Group, pattern: Pattern) -> NDArray[np.bool_]:
-    """Which objects of the scene stood in the relation (rows, objects)."""
-    found = np.zeros((len(group.rows), len(group.table.space.objects)), dtype=bool)
-    before = group.before
-    for number, column in _open_columns(group.table.space, group.lifting.objects, pattern):
-        found[:, number] = before[:, column] == TRUE
-    return found
 
 
 def _distinct(own: _Witnesses, others: Sequence[_Witnesses]) -> bool:
@@ -234,22 +212,21 @@ def _without(contexts: Sequence[_Witnesses], number: int) -> list[_Witnesses]:
 
 
 def _common_types(
-    groups: Sequence[Group], contexts: Sequence[_Witnesses], number: int
+    bundles: Sequence[Bundle], contexts: Sequence[_Witnesses], number: int
 ) -> tuple[frozenset[str], _Witnesses]:
     """Types of which, in every transition, some witness of a context was; and those witnesses."""
     others = _without(contexts, number)
-    names = {t for g in groups for o in g.table.space.objects for t in o.types}
+    frequency: Counter[str] = Counter()
+    for bundle in bundles:
+        for thing in bundle.table.space.objects:
+            frequency.update(dict.fromkeys(thing.types, len(bundle.bindings)))
     chosen: frozenset[str] = frozenset()
     fitting = contexts[number]
-    for name in sorted(names, key=lambda t: (_frequency(groups, t), t)):  # rarest: they say most
+    for name in sorted(frequency, key=lambda t: (frequency[t], t)):  # rarest: they say most
         fewer = [
-            found & np.array([name in o.types for o in group.table.space.objects])
-            for group, found in zip(groups, fitting, strict=True)
+            found & bundle.table.space.index.of_types([name])
+            for bundle, found in zip(bundles, fitting, strict=True)
         ]
         if _distinct(fewer, others):
             chosen, fitting = chosen | {name}, fewer
     return chosen, fitting
-
-
-def _frequency(groups: Sequence[Group], type_name: str) -> int:
-    return sum(type_name in o.types for g in groups for o in g.table.space.objects)

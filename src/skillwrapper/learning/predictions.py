@@ -9,27 +9,59 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.learning.clusters import Group, group_by_change, touches_unknown
+from skillwrapper.learning.binding import BoundOperator, bind_operator
 from skillwrapper.learning.data import SkillData, SkillTable
 from skillwrapper.learning.operators import LearnedOperator
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, GroundOperator, Labels, ground_operator
+from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Labels
 
 
 @dataclass(frozen=True, eq=False)
 class Application:
-    """A ground operator and the transitions of its skill instance.
+    """An operator applied to the transitions of a table, in every binding of its parameters.
 
     Attributes:
-        learned: the operator with its cluster.
-        ground: the ground operator.
-        rows: rows of the transitions in the table.
-        applicability: TRUE, FALSE or UNKNOWN for every one of the rows.
+        bound: the operator's bindings.
+        binding: the binding of every pair of a binding and a transition of its skill instance.
+        rows: the row of every pair; a transition occurs as often as it has bindings.
+        applicability: TRUE, FALSE or UNKNOWN for every pair.
     """
 
-    learned: LearnedOperator
-    ground: GroundOperator
+    bound: BoundOperator
+    binding: NDArray[np.intp]
     rows: NDArray[np.intp]
     applicability: Labels
+
+    @classmethod
+    def of(cls, learned: LearnedOperator, table: SkillTable) -> Application:
+        """Apply an operator to a table."""
+        bound = bind_operator(learned.operator, table)
+        binding, rows = bound.pairs()
+        return cls(bound, binding, rows, bound.applicability(binding, rows))
+
+    @cached_property
+    def accounted(self) -> NDArray[np.intp]:
+        """Rows, sorted, for which some binding surely applies and makes the whole known change."""
+        pairs = np.flatnonzero(self.applicability == TRUE)
+        same = self.bound.makes_change(self.binding[pairs], self.rows[pairs])
+        return np.unique(self.rows[pairs[same]])
+
+    @cached_property
+    def similar(self) -> NDArray[np.intp]:
+        """Rows, sorted, for which some binding would make the whole known change."""
+        return np.unique(self.rows[self.bound.makes_change(self.binding, self.rows)])
+
+    @cached_property
+    def mispredicted(self) -> NDArray[np.intp]:
+        """Rows, sorted, of successes where a binding surely applies but predicts another change.
+
+        Unknown and unexplained atoms do not count.
+        """
+        table = self.bound.table
+        counts = (table.success & ~table.hanging)[self.rows]
+        pairs = np.flatnonzero(counts & (self.applicability == TRUE))
+        binding, rows = self.binding[pairs], self.rows[pairs]
+        excused = table.undetermined | table.unexplained
+        return np.unique(rows[self.bound.mispredicts(binding, rows, excused)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,103 +70,77 @@ class TablePrediction:
 
     Attributes:
         table: the transitions.
-        applications: every ground operator of an instance that occurs.
+        operators: the operators.
+        applications: one for every operator, in their order.
     """
 
     table: SkillTable
+    operators: tuple[LearnedOperator, ...]
     applications: tuple[Application, ...]
 
     @cached_property
     def executable(self) -> Labels:
         """Whether some operator applies (n,): TRUE, FALSE or UNKNOWN."""
         verdict = np.full(len(self.table), FALSE, dtype=np.int8)
-        for found in self.applications:
-            now = verdict[found.rows]
-            unknown = (now == FALSE) & (found.applicability == UNKNOWN)
-            now = np.where(found.applicability == TRUE, TRUE, np.where(unknown, UNKNOWN, now))
-            verdict[found.rows] = now
+        for value in (UNKNOWN, TRUE):
+            for found in self.applications:
+                verdict[found.rows[found.applicability == value]] = value
         return verdict
-
-    @cached_property
-    def successes(self) -> tuple[Group, ...]:
-        """The successes whose change is determined, by skill instance and change."""
-        return tuple(group_by_change(self.table, self.table.success & ~self.undetermined))
-
-    @cached_property
-    def failures(self) -> tuple[Group, ...]:
-        """The failures whose change is determined, by skill instance and change."""
-        return tuple(group_by_change(self.table, ~self.table.success & ~self.undetermined))
-
-    @cached_property
-    def undetermined(self) -> NDArray[np.bool_]:
-        """Whether the change around the arguments is not known (n,)."""
-        return touches_unknown(self.table)
 
     @cached_property
     def undecided(self) -> NDArray[np.bool_]:
         """Whether the change or the prediction hangs on an unknown label (n,), see D10."""
-        hanging: NDArray[np.bool_] = self.undetermined | (self.executable == UNKNOWN)
-        return hanging
+        undecided: NDArray[np.bool_] = self.table.hanging | (self.executable == UNKNOWN)
+        return undecided
 
     @cached_property
     def accounted(self) -> NDArray[np.bool_]:
         """Whether some operator surely applies and makes the whole known change (n,)."""
         accounted = np.zeros(len(self.table), dtype=bool)
         for found in self.applications:
-            accounted[found.rows] |= self.makes_change(found) & (found.applicability == TRUE)
+            accounted[found.accounted] = True
         return accounted
 
-    def makes_change(self, application: Application) -> NDArray[np.bool_]:
-        """Whether the whole known change of the transitions is the operator's effect (rows,)."""
-        rows = application.rows
-        effect = application.ground.effects(self.table.before[rows])
-        known = ~self.table.undetermined()[rows]
-        same: NDArray[np.bool_] = (np.where(known, effect, 0) == self._change[rows]).all(axis=1)
-        return same
-
     @cached_property
-    def _change(self) -> Labels:
-        return self.table.change()
-
-    @cached_property
-    def unexplained(self) -> NDArray[np.bool_]:
-        """Changed atoms that are connected to no argument (n, atoms)."""
-        mask = np.zeros(self.table.before.shape, dtype=bool)
-        for group in (*self.successes, *self.failures):
-            columns = self.table.space.columns(group.lifting.unexplained)
-            mask[np.ix_(group.rows, columns)] = True
-        return mask
-
-    def mispredicted(self, application: Application) -> NDArray[np.intp]:
-        """Rows of successes where the operator surely applies but predicts another change.
-
-        Unknown and unexplained atoms do not count.
-        """
-        table = self.table
-        rows = application.rows[application.applicability == TRUE]
-        rows = rows[table.success[rows] & ~self.undetermined[rows]]
-        predicted = application.ground.apply(table.before[rows])
-        counts = ~table.undetermined()[rows] & ~self.unexplained[rows]
-        wrong: NDArray[np.bool_] = ((predicted != table.after[rows]) & counts).any(axis=1)
-        mistaken: NDArray[np.intp] = rows[wrong]
+    def mistaken(self) -> NDArray[np.bool_]:
+        """Whether some operator that surely applies predicts another change (n,)."""
+        mistaken = np.zeros(len(self.table), dtype=bool)
+        for found in self.applications:
+            mistaken[found.mispredicted] = True
         return mistaken
+
+
+class Predictor:
+    """Applies operators to the transitions of a skill, each operator only once.
+
+    Args:
+        data: the transitions.
+    """
+
+    def __init__(self, data: SkillData) -> None:
+        self._data = data
+        self._known: dict[LearnedOperator, tuple[Application, ...]] = {}
+
+    def predict(self, operators: Sequence[LearnedOperator]) -> tuple[TablePrediction, ...]:
+        """What several operators say of the transitions, table by table."""
+        applied = [self._apply(learned) for learned in operators]
+        return tuple(
+            TablePrediction(table, tuple(operators), tuple(own[number] for own in applied))
+            for number, table in enumerate(self._data)
+        )
+
+    def rename(self, learned: LearnedOperator, name: str) -> LearnedOperator:
+        """The operator under another name; what it predicts is the same."""
+        renamed = LearnedOperator(learned.operator.renamed(name), learned.cluster)
+        self._known[renamed] = self._apply(learned)
+        return renamed
+
+    def _apply(self, learned: LearnedOperator) -> tuple[Application, ...]:
+        if learned not in self._known:
+            self._known[learned] = tuple(Application.of(learned, table) for table in self._data)
+        return self._known[learned]
 
 
 def predict(data: SkillData, operators: Sequence[LearnedOperator]) -> tuple[TablePrediction, ...]:
     """Apply the operators of a skill to its transitions."""
-    return tuple(TablePrediction(t, tuple(_applications(t, operators))) for t in data)
-
-
-def _applications(table: SkillTable, operators: Sequence[LearnedOperator]) -> list[Application]:
-    rows_of = {
-        instance: np.flatnonzero(table.which == number)
-        for number, instance in enumerate(table.instances)
-    }
-    found = []
-    for learned in operators:
-        for ground in ground_operator(learned.operator, table.space):
-            rows = rows_of.get(ground.instance)
-            if rows is not None and len(rows):
-                applicability = ground.applicability(table.before[rows])
-                found.append(Application(learned, ground, rows, applicability))
-    return found
+    return Predictor(data).predict(operators)

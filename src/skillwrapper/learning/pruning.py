@@ -10,7 +10,7 @@ import numpy as np
 
 from skillwrapper.learning.fitting import Fit, Fitter
 from skillwrapper.learning.vocabulary import Vocabulary
-from skillwrapper.symbols import UNKNOWN, AtomSpace, Predicate
+from skillwrapper.symbols import UNKNOWN, Predicate
 
 
 @dataclass(frozen=True)
@@ -73,10 +73,8 @@ def _relation(fitter: Fitter, first: Predicate, second: Predicate) -> str:
     compared = 0
     equal = opposite = True
     for scene in fitter.dataset.scenes:
-        objects = fitter.dataset.objects(scene)
-        observations = fitter.dataset.observations(scene)
-        a = fitter.truth.labels(AtomSpace((first,), objects), observations)
-        b = fitter.truth.labels(AtomSpace((second,), objects), observations)
+        a = fitter.reading.labels(scene, [first])
+        b = fitter.reading.labels(scene, [second])
         known = (a != UNKNOWN) & (b != UNKNOWN)
         compared += int(known.sum())
         equal &= bool(np.array_equal(a[known], b[known]))

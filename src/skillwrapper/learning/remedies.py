@@ -12,11 +12,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from skillwrapper.learning.clusters import Cluster, Group
+from skillwrapper.learning.clusters import Cluster
 from skillwrapper.learning.conditional_effects import learn_with_conditional_effects
-from skillwrapper.learning.data import SkillData
+from skillwrapper.learning.data import Group, SkillData
 from skillwrapper.learning.operators import LearnedOperator, learn_operators, operator_of
-from skillwrapper.learning.predictions import TablePrediction, predict
+from skillwrapper.learning.predictions import Predictor, TablePrediction
 from skillwrapper.symbols import TRUE, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
@@ -32,41 +32,29 @@ def learn_deterministic_operators(
 ) -> tuple[tuple[LearnedOperator, ...], tuple[TablePrediction, ...]]:
     """The operators of a skill, mended as far as the vocabulary allows, and what they predict."""
     plain = learn_operators(domain, skill, data, predicates, absences=absences)
-    predictions = predict(data, plain)
-    mistaken = _mistaken_operators(predictions)
+    predictor = Predictor(data)
     chosen: list[LearnedOperator] = []
     for learned in plain:
-        if learned.operator.name in mistaken:
-            chosen += _mend(domain, skill, data, predicates, learned, absences=absences)
+        if _mistakes(predictor, [learned]):
+            chosen += _mend(domain, skill, predictor, predicates, learned, absences=absences)
         else:
             chosen.append(learned)
     clusters = [o.cluster for o in plain]
     ranging = learn_with_conditional_effects(domain, skill, clusters, predicates, absences=absences)
-    if ranging and _cost(data, ranging) < _cost(data, chosen):
+    if ranging and _cost(predictor, ranging) < _cost(predictor, chosen):
         chosen = list(ranging)
     if chosen == list(plain):
-        return plain, predictions
+        return plain, predictor.predict(plain)
     named = tuple(
-        LearnedOperator(o.operator.renamed(f"{skill.name}_{number}"), o.cluster)
-        for number, o in enumerate(chosen, start=1)
+        predictor.rename(o, f"{skill.name}_{number}") for number, o in enumerate(chosen, start=1)
     )
-    return named, predict(data, named)
-
-
-def _mistaken_operators(predictions: Sequence[TablePrediction]) -> frozenset[str]:
-    """Names of the operators that mispredict a change somewhere."""
-    return frozenset(
-        a.learned.operator.name
-        for prediction in predictions
-        for a in prediction.applications
-        if len(prediction.mispredicted(a))
-    )
+    return named, predictor.predict(named)
 
 
 def _mend(
     domain: Domain,
     skill: Skill,
-    data: SkillData,
+    predictor: Predictor,
     predicates: Sequence[Predicate],
     learned: LearnedOperator,
     *,
@@ -86,7 +74,7 @@ def _mend(
             )
             for cluster in clusters
         )
-        if not _mistakes(data, replacement):
+        if not _mistakes(predictor, replacement):
             return replacement
     return (learned,)
 
@@ -108,22 +96,16 @@ def _split_by_types(cluster: Cluster) -> tuple[Cluster, ...]:
     return tuple(Cluster(cluster.change, tuple(parts[types])) for types in sorted(parts))
 
 
-def _mistakes(data: SkillData, operators: Sequence[LearnedOperator]) -> int:
+def _mistakes(predictor: Predictor, operators: Sequence[LearnedOperator]) -> int:
     """How many transitions are mispredicted by an operator that applies."""
-    return sum(
-        len({int(row) for a in prediction.applications for row in prediction.mispredicted(a)})
-        for prediction in predict(data, operators)
-    )
+    return sum(int(prediction.mistaken.sum()) for prediction in predictor.predict(operators))
 
 
-def _cost(data: SkillData, operators: Sequence[LearnedOperator]) -> tuple[int, int]:
+def _cost(predictor: Predictor, operators: Sequence[LearnedOperator]) -> tuple[int, int]:
     """Smaller is better: transitions that are predicted wrongly, then the number of operators."""
     wrong = 0
-    for prediction in predict(data, operators):
+    for prediction in predictor.predict(operators):
         success = prediction.table.success
         mistaken = np.where(success, ~prediction.accounted, prediction.executable == TRUE)
-        mistaken &= ~prediction.undecided
-        for application in prediction.applications:
-            mistaken[prediction.mispredicted(application)] = True
-        wrong += int(mistaken.sum())
+        wrong += int(((mistaken & ~prediction.undecided) | prediction.mistaken).sum())
     return wrong, len(operators)

@@ -59,6 +59,4 @@ def _wrong(prediction: TablePrediction) -> int:
     """Transitions whose success or whose change is predicted wrongly."""
     executable, success = prediction.executable, prediction.table.success
     wrong = (executable != UNKNOWN) & ((executable == TRUE) != success)
-    for application in prediction.applications:
-        wrong[prediction.mispredicted(application)] = True
-    return int(np.count_nonzero(wrong))
+    return int(np.count_nonzero(wrong | prediction.mistaken))
