@@ -131,3 +131,13 @@ def test_cost_counts_operators_and_wrong_transitions() -> None:
     notebook.failure("empty(r) #2", "Take(r, b)")
     notebook.failure("empty(r) #3", "Take(r, b)")
     assert notebook.fit(EMPTY, HELD).cost == 2 * fitting.OPERATOR_COST + 2
+
+
+def test_skills_are_learned_as_far_as_somebody_looks(learned: list[str]) -> None:
+    fitter = some_data().fitter()
+    first = next(fitter.fit_each([EMPTY, HELD]))
+    assert learned == ["Take"]
+    assert fitter.fit_skill("Drop", [EMPTY, HELD]).skill == "Drop"
+    assert learned == ["Take", "Drop"]
+    assert fitter.fit([EMPTY, HELD]).skills["Take"] is first
+    assert learned == ["Take", "Drop", "Wave"]

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from notebook import Notebook, make_domain
+from random_worlds import DOMAIN, PREDICATES, QUICK, random_notebook
 
 from skillwrapper.learning.pruning import find_burdens, prune
 from skillwrapper.learning.vocabulary import Vocabulary
 from skillwrapper.symbols import Predicate
+from skillwrapper.world import Episode
 
 KITCHEN = make_domain(
     types={"robot": (), "item": (), "place": ()},
@@ -151,3 +155,23 @@ def test_a_predicate_that_only_splits_is_a_burden(divided: Notebook) -> None:
 def test_what_explains_as_much_as_it_splits_is_none() -> None:
     words = Vocabulary(KITCHEN.types, (EMPTY, HELD))
     assert find_burdens(recorded().fitter(), words) == ()
+
+
+@settings(QUICK, max_examples=15)
+@given(st.lists(st.integers(0, 10**9), min_size=1, max_size=2))
+def test_burdens_are_those_of_weighing_every_vocabulary_in_full(seeds: list[int]) -> None:
+    """One that is known to be dearer is not weighed to its end."""
+    notebook = Notebook(DOMAIN, *PREDICATES)
+    for seed in seeds:
+        records = random_notebook(seed).dataset.records
+        for record in records:
+            notebook.dataset.add(Episode(record.scene, 0, (record.transition,)))
+    fitter = notebook.fitter()
+    remaining, weighed = PREDICATES, [PREDICATES]
+    while remaining:
+        fewer = [tuple(q for q in remaining if q != p) for p in reversed(remaining)]
+        remaining = min(fewer, key=lambda words: fitter.fit(words).cost)
+        weighed.append(remaining)
+    best = min(weighed, key=lambda words: fitter.fit(words).cost)
+    burdens = find_burdens(notebook.fitter(), Vocabulary(DOMAIN.types, PREDICATES))
+    assert burdens == tuple(p for p in PREDICATES if p not in best)

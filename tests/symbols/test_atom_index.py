@@ -48,7 +48,7 @@ def test_a_quantified_object_is_every_object_in_turn(place: int) -> None:
     predicate = SPACE.predicates[3]
     terms = [0, 1]
     terms.insert(place, ANY)
-    patterns = SPACE.index.patterns([("dark", []), (predicate.name, terms)], 2)
+    patterns = SPACE.index.patterns([("dark", ()), (predicate.name, tuple(terms))], 2)
     bindings = list(itertools.product(range(len(OBJECTS)), repeat=2))
     found = SPACE.index.open_columns(patterns, np.array(bindings))
     for row, binding in enumerate(bindings):

@@ -150,7 +150,7 @@ def bind_operator(operator: Operator, table: SkillTable) -> BoundOperator:
 
     def compile_atoms(atoms: Iterable[Atom]) -> AtomPatterns:
         """Over the operator's parameters; any other term is quantified."""
-        found = [(a.predicate, [position.get(t, ANY) for t in a.terms]) for a in atoms]
+        found = ((a.predicate, tuple(position.get(t, ANY) for t in a.terms)) for a in atoms)
         return index.patterns(found, size)
 
     which, bindings = _bindings(operator.parameters, operator.arity, table)

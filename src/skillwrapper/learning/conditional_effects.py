@@ -23,7 +23,6 @@ from skillwrapper.learning.clusters import Bundle, Cluster, bundle_groups
 from skillwrapper.learning.data import Group
 from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.operators import LearnedOperator, operator_of
-from skillwrapper.learning.preconditions import Pattern
 from skillwrapper.symbols import (
     TRUE,
     Atom,
@@ -33,46 +32,56 @@ from skillwrapper.symbols import (
     Predicate,
     Variable,
 )
-from skillwrapper.symbols.atom_index import ANY, Columns, taken_objects
+from skillwrapper.symbols.atom_index import ANY, Columns, LiftedAtom, taken_objects
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
 EACH = "?each"
 
-SignedPattern = tuple[bool, Pattern]
+SignedPattern = tuple[bool, LiftedAtom]
 """Became true or false; the pattern has one ``ANY``."""
 
 
 @dataclass(frozen=True)
 class _Rule:
     change: SignedPattern
-    condition: tuple[tuple[Pattern, bool], ...]
+    condition: tuple[tuple[LiftedAtom, bool], ...]
     types: frozenset[str]
+
+
+def cluster_by_core(clusters: Sequence[Cluster]) -> tuple[Cluster, ...]:
+    """Clusters by the part of the change without objects over which it ranges.
+
+    Args:
+        clusters: the successes of a skill.
+
+    Returns:
+        Nothing if no change ranges over a set.
+    """
+    groups = [group for cluster in clusters for group in cluster.groups]
+    ranging = _ranging_changes(groups)
+    return _cluster_by_core(groups, ranging) if ranging else ()
 
 
 def learn_with_conditional_effects(
     domain: Domain,
     skill: Skill,
-    clusters: Sequence[Cluster],
+    cores: Sequence[Cluster],
     predicates: Sequence[Predicate],
     *,
     absences: bool = True,
 ) -> tuple[LearnedOperator, ...]:
-    """Operators with conditional effects; none if no change ranges over a set by a rule.
+    """Operators with conditional effects; none if some change follows no rule.
 
     Args:
         domain: for the type hierarchy.
         skill: the skill.
-        clusters: its successes.
+        cores: its successes, clustered by core.
         predicates: the vocabulary without tautologies.
         absences: whether preconditions may be universal absences.
     """
-    groups = [group for cluster in clusters for group in cluster.groups]
-    ranging = _ranging_changes(groups)
-    if not ranging:
-        return ()
     learned = []
-    for number, cluster in enumerate(_cluster_by_core(groups, ranging), start=1):
+    for number, cluster in enumerate(cores, start=1):
         rules = _find_rules(cluster, predicates)
         if rules is None:
             return ()
@@ -138,7 +147,7 @@ def _find_rules(cluster: Cluster, predicates: Sequence[Predicate]) -> tuple[_Rul
     return found if len(found) == len(rules) else None
 
 
-def _patterns(predicates: Sequence[Predicate], size: int) -> Iterator[Pattern]:
+def _patterns(predicates: Sequence[Predicate], size: int) -> Iterator[LiftedAtom]:
     for predicate in predicates:
         for place in range(predicate.arity):
             for terms in itertools.permutations(range(size), predicate.arity - 1):
@@ -160,7 +169,7 @@ class _Others:
     held: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, bundle: Bundle, patterns: Sequence[Pattern], size: int) -> _Others:
+    def of(cls, bundle: Bundle, patterns: Sequence[LiftedAtom], size: int) -> _Others:
         index = bundle.table.space.index
         columns = index.open_columns(index.patterns(patterns, size), bundle.bindings)
         arguments = bundle.table.arguments[bundle.table.which[bundle.rows[bundle.first]]]
@@ -189,7 +198,7 @@ class _Others:
 
 def _find_rule(
     scenes: Sequence[_Others],
-    patterns: Sequence[Pattern],
+    patterns: Sequence[LiftedAtom],
     slots: Mapping[str, tuple[str, ...]],
     change: SignedPattern,
 ) -> _Rule | None:
@@ -217,12 +226,13 @@ def _find_rule(
         unchanged = np.concatenate(others)
         if not _holds_somewhere(condition, unchanged):
             simplest = _simplest(condition, patterns, unchanged)
-            return _Rule(change, tuple(sorted((patterns[i], t) for i, t in simplest.items())), types)
+            literals = sorted((patterns[i], truth) for i, truth in simplest.items())
+            return _Rule(change, tuple(literals), types)
     return None
 
 
 def _simplest(
-    condition: dict[int, bool], patterns: Sequence[Pattern], unchanged: NDArray[np.bool_]
+    condition: dict[int, bool], patterns: Sequence[LiftedAtom], unchanged: NDArray[np.bool_]
 ) -> dict[int, bool]:
     """A condition that holds of nothing unchanged, without what it can do without.
 
@@ -245,7 +255,7 @@ def _holds_somewhere(condition: Mapping[int, bool], cases: NDArray[np.bool_]) ->
 def _effect(domain: Domain, operator: Operator, rule: _Rule) -> ConditionalEffect:
     names = [v.name for v in operator.parameters]
 
-    def atom(pattern: Pattern) -> Atom:
+    def atom(pattern: LiftedAtom) -> Atom:
         return Atom(pattern[0], tuple(EACH if t == ANY else names[t] for t in pattern[1]))
 
     became, pattern = rule.change

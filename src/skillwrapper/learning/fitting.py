@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -56,6 +56,11 @@ class SkillFit:
     @cached_property
     def _wrong(self) -> tuple[Wrong, ...]:
         return find_wrong(self.predictions)
+
+    @property
+    def cost(self) -> int:
+        """Its share of the cost of a fit."""
+        return OPERATOR_COST * len(self.operators) + len(self.witnesses)
 
     @cached_property
     def undecided(self) -> frozenset[int]:
@@ -111,7 +116,7 @@ class Fit:
         An operator counts as much as ``OPERATOR_COST`` transitions: one that is not needed for
         more is no insight.
         """
-        return OPERATOR_COST * len(self.operators) + len(self.witnesses)
+        return sum(fit.cost for fit in self.skills.values())
 
     @property
     def hard_cost(self) -> int:
@@ -154,9 +159,18 @@ class Fitter:
 
     def fit(self, predicates: Sequence[Predicate]) -> Fit:
         """Learn all skills with a vocabulary."""
-        useful = tuple(p for p in predicates if not self.is_tautology(p))
-        skills = {s.name: self._fit_skill(s, useful) for s in self.domain.skills}
+        skills = {fit.skill: fit for fit in self.fit_each(predicates)}
         return Fit(self.domain, tuple(predicates), skills)
+
+    def fit_each(self, predicates: Sequence[Predicate]) -> Iterator[SkillFit]:
+        """The same, one skill after the other, for who may have seen enough before the last."""
+        useful = tuple(p for p in predicates if not self.is_tautology(p))
+        return (self._fit_skill(skill, useful) for skill in self.domain.skills)
+
+    def fit_skill(self, skill: str, predicates: Sequence[Predicate]) -> SkillFit:
+        """Learn one skill with a vocabulary."""
+        useful = tuple(p for p in predicates if not self.is_tautology(p))
+        return self._fit_skill(self.domain.skill_by_name[skill], useful)
 
     def is_tautology(self, predicate: Predicate) -> bool:
         """Whether all known labels of a predicate are equal, over all data (DESIGN.md D9)."""

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from typing import Protocol
 
 from skillwrapper.learning.data import changed_literals
@@ -66,16 +67,22 @@ class Decision:
     reason: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Trial:
     """A candidate with the model that would be learned with it."""
 
     predicate: Predicate
     dormant: bool
-    fit: Fit
+    fitter: Fitter
+    words: tuple[Predicate, ...]
     score: float
     remains: bool
     undecided: bool
+
+    @cached_property
+    def fit(self) -> Fit:
+        """What would be learned of all skills; only looked at if the candidate is good for one."""
+        return self.fitter.fit(self.words)
 
     @property
     def resolved(self) -> bool:
@@ -308,20 +315,21 @@ class Inventor:
     def _trial(
         self, inconsistency: Inconsistency, predicate: Predicate, *, dormant: bool
     ) -> _Trial:
-        fit = self._fitter.fit(self._vocabulary.with_candidate(predicate))
-        skill = fit.skills[inconsistency.skill]
+        words = self._vocabulary.with_candidate(predicate)
+        skill = self._fitter.fit_skill(inconsistency.skill, words)
         return _Trial(
             predicate,
             dormant,
-            fit,
+            self._fitter,
+            words,
             skill.score(inconsistency.kind),
-            remains=inconsistency.witness in fit.witnesses,
+            remains=inconsistency.witness in skill.witnesses,
             undecided=not self._decides_one(inconsistency, skill),
         )
 
     def _decides_one(self, inconsistency: Inconsistency, fit: SkillFit) -> bool:
         """Whether a transition of the same cause is no longer wrong and hangs on no unknown."""
-        now = self._fitter.fit(self._vocabulary.active).skills[inconsistency.skill]
+        now = self._fitter.fit_skill(inconsistency.skill, self._vocabulary.active)
         return any(
             i.witness not in fit.witnesses and i.culprit not in fit.undecided
             for i in now.inconsistencies

@@ -10,11 +10,10 @@ from skillwrapper.learning.data import Group, SkillData
 from skillwrapper.learning.preconditions import (
     Evidence,
     ExistentialContext,
-    Pattern,
     gather_evidence,
 )
 from skillwrapper.symbols import Absence, Atom, Literal, Operator, Predicate, Variable
-from skillwrapper.symbols.atom_index import ANY
+from skillwrapper.symbols.atom_index import ANY, LiftedAtom
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -126,11 +125,11 @@ def _preconditions(evidence: Evidence, names: Sequence[str], size: int) -> froze
     return frozenset(plain | context)
 
 
-def _absence(pattern: Pattern, names: Sequence[str]) -> Absence:
+def _absence(pattern: LiftedAtom, names: Sequence[str]) -> Absence:
     return Absence(_atom(pattern, names, other="?any"), ("?any",))
 
 
-def _atom(pattern: Pattern, names: Sequence[str], other: str = "") -> Atom:
+def _atom(pattern: LiftedAtom, names: Sequence[str], other: str = "") -> Atom:
     predicate, terms = pattern
     return Atom(predicate, tuple(other if t == ANY else names[t] for t in terms))
 

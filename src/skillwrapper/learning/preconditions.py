@@ -23,11 +23,7 @@ from numpy.typing import NDArray
 from skillwrapper.learning.clusters import Bundle, bundle_groups
 from skillwrapper.learning.data import NO_LABEL, Group
 from skillwrapper.symbols import FALSE, TRUE, Predicate
-from skillwrapper.symbols.atom_index import ANY
-
-Pattern = tuple[str, tuple[int, ...]]
-"""A predicate with the positions of its terms; at most one of them is ``ANY``, which stands for
-the quantified object."""
+from skillwrapper.symbols.atom_index import ANY, LiftedAtom
 
 _Witnesses = list[NDArray[np.bool_]]
 """For every table the objects of the scene (rows, objects) that an existential context may be."""
@@ -42,7 +38,7 @@ class ExistentialContext:
         types: the most specific types of which such an object was always there; closed upwards.
     """
 
-    patterns: tuple[Pattern, ...]
+    patterns: tuple[LiftedAtom, ...]
     types: frozenset[str]
 
 
@@ -56,8 +52,8 @@ class Evidence:
         existentials: context objects that were always there.
     """
 
-    literals: tuple[tuple[Pattern, bool], ...]
-    absences: tuple[Pattern, ...]
+    literals: tuple[tuple[LiftedAtom, bool], ...]
+    absences: tuple[LiftedAtom, ...]
     existentials: tuple[ExistentialContext, ...]
 
 
@@ -93,14 +89,14 @@ def gather_evidence(
 
 def _plain_patterns(
     predicates: Sequence[Predicate], arity: int, size: int, between_context: bool
-) -> Iterator[Pattern]:
+) -> Iterator[LiftedAtom]:
     for predicate in predicates:
         for terms in itertools.permutations(range(size), predicate.arity):
             if between_context or len(terms) <= 1 or min(terms) < arity:
                 yield predicate.name, terms
 
 
-def _open_patterns(predicates: Sequence[Predicate], arity: int) -> Iterator[Pattern]:
+def _open_patterns(predicates: Sequence[Predicate], arity: int) -> Iterator[LiftedAtom]:
     for predicate in predicates:
         if predicate.arity < 2:
             continue
@@ -110,8 +106,8 @@ def _open_patterns(predicates: Sequence[Predicate], arity: int) -> Iterator[Patt
 
 
 def _common_literals(
-    bundles: Sequence[Bundle], patterns: Sequence[Pattern], size: int
-) -> tuple[tuple[Pattern, bool], ...]:
+    bundles: Sequence[Bundle], patterns: Sequence[LiftedAtom], size: int
+) -> tuple[tuple[LiftedAtom, bool], ...]:
     seen_true = np.zeros(len(patterns), dtype=bool)
     seen_false = np.zeros(len(patterns), dtype=bool)
     everywhere = np.ones(len(patterns), dtype=bool)
@@ -143,7 +139,7 @@ class _Relations:
     seen_none: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, bundle: Bundle, patterns: Sequence[Pattern], size: int) -> _Relations:
+    def of(cls, bundle: Bundle, patterns: Sequence[LiftedAtom], size: int) -> _Relations:
         index = bundle.table.space.index
         columns = index.open_columns(index.patterns(patterns, size), bundle.bindings)
         columns = np.where(bundle.taken[:, np.newaxis, :], -1, columns)
@@ -164,14 +160,14 @@ def _never(relations: Sequence[_Relations]) -> list[int]:
 
 
 def _merge_existentials(
-    bundles: Sequence[Bundle], patterns: Sequence[Pattern], relations: Sequence[_Relations]
+    bundles: Sequence[Bundle], patterns: Sequence[LiftedAtom], relations: Sequence[_Relations]
 ) -> tuple[ExistentialContext, ...]:
     """One context object for all patterns that one object can always meet together.
 
     Different context objects must be different (D4): a pattern for which no object of its own
     is always there is left out.
     """
-    merged: list[list[Pattern]] = []
+    merged: list[list[LiftedAtom]] = []
     contexts: list[_Witnesses] = []
     for place in np.flatnonzero(np.logical_and.reduce([r.always for r in relations])).tolist():
         own = [r.witnesses[:, place] for r in relations]
@@ -222,11 +218,14 @@ def _common_types(
             frequency.update(dict.fromkeys(thing.types, len(bundle.bindings)))
     chosen: frozenset[str] = frozenset()
     fitting = contexts[number]
+    ever = [found.any(axis=0) for found in fitting]
     for name in sorted(frequency, key=lambda t: (frequency[t], t)):  # rarest: they say most
-        fewer = [
-            found & bundle.table.space.index.of_types([name])
-            for bundle, found in zip(bundles, fitting, strict=True)
-        ]
-        if _distinct(fewer, others):
-            chosen, fitting = chosen | {name}, fewer
+        of_type = [bundle.table.space.index.of_types([name]) for bundle in bundles]
+        if all(of[seen].all() for of, seen in zip(of_type, ever, strict=True)):
+            chosen |= {name}  # nothing to tell: all witnesses are of the type
+        elif all(of[seen].any() for of, seen in zip(of_type, ever, strict=True)):
+            fewer = [found & of for found, of in zip(fitting, of_type, strict=True)]
+            if _distinct(fewer, others):
+                chosen, fitting = chosen | {name}, fewer
+                ever = [found.any(axis=0) for found in fitting]
     return chosen, fitting

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,12 +43,27 @@ def find_burdens(
     remaining = list(vocabulary.active)
     lowest, best = fitter.fit(remaining).cost, tuple(remaining)
     while left := [p for p in remaining if p not in spared]:
-        costs = {p: fitter.fit([q for q in remaining if q != p]).cost for p in left}
-        cheapest = min(reversed(left), key=lambda p: costs[p])
+        cheapest, cost = left[-1], _cost_without(fitter, remaining, left[-1])
+        for predicate in reversed(left[:-1]):
+            less = _cost_without(fitter, remaining, predicate, cost)
+            if less < cost:
+                cheapest, cost = predicate, less
         remaining.remove(cheapest)
-        if costs[cheapest] < lowest:
-            lowest, best = costs[cheapest], tuple(remaining)
+        if cost < lowest:
+            lowest, best = cost, tuple(remaining)
     return tuple(p for p in vocabulary.active if p not in best)
+
+
+def _cost_without(
+    fitter: Fitter, predicates: Sequence[Predicate], left_out: Predicate, limit: float = math.inf
+) -> int:
+    """What it takes without a predicate; if that is not below the limit, any such number."""
+    cost = 0
+    for fit in fitter.fit_each([p for p in predicates if p != left_out]):
+        cost += fit.cost
+        if cost >= limit:
+            break
+    return cost
 
 
 def _merge(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
@@ -96,8 +112,8 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
         use = _usage(fit)
         predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
         tried.add(predicate)
-        without = fitter.fit([p for p in vocabulary.active if p != predicate])
-        if without.witnesses <= fit.witnesses:
+        without = fitter.fit_each([p for p in vocabulary.active if p != predicate])
+        if all(one.witnesses <= fit.skills[one.skill].witnesses for one in without):
             vocabulary.set_dormant(predicate)
             pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
 

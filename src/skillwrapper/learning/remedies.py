@@ -13,7 +13,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from skillwrapper.learning.clusters import Cluster
-from skillwrapper.learning.conditional_effects import learn_with_conditional_effects
+from skillwrapper.learning.conditional_effects import (
+    cluster_by_core,
+    learn_with_conditional_effects,
+)
 from skillwrapper.learning.data import Group, SkillData
 from skillwrapper.learning.operators import LearnedOperator, learn_operators, operator_of
 from skillwrapper.learning.predictions import Predictor, TablePrediction
@@ -39,10 +42,13 @@ def learn_deterministic_operators(
             chosen += _mend(domain, skill, predictor, predicates, learned, absences=absences)
         else:
             chosen.append(learned)
-    clusters = [o.cluster for o in plain]
-    ranging = learn_with_conditional_effects(domain, skill, clusters, predicates, absences=absences)
-    if ranging and _cost(predictor, ranging) < _cost(predictor, chosen):
-        chosen = list(ranging)
+    cores = cluster_by_core([o.cluster for o in plain])
+    if cores and (cost := _cost(predictor, chosen)) > (0, len(cores)):
+        ranging = learn_with_conditional_effects(
+            domain, skill, cores, predicates, absences=absences
+        )
+        if ranging and _cost(predictor, ranging) < cost:
+            chosen = list(ranging)
     if chosen == list(plain):
         return plain, predictor.predict(plain)
     named = tuple(

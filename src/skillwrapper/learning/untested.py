@@ -78,9 +78,9 @@ def _attempts(
     """What each condition asks for under a binding, and the states where it was not fulfilled."""
     table = prediction.table
     applies = np.zeros(len(table), dtype=bool)
-    for found in prediction.applications:
-        if found.learned is learned:
-            applies[found.rows] |= found.applicability != FALSE
+    for operator, found in zip(prediction.operators, prediction.applications, strict=True):
+        if operator is learned:
+            applies[found.rows[found.applicability != FALSE]] = True
     for number, instance in enumerate(table.instances):
         rows = np.flatnonzero((table.which == number) & ~applies)
         if len(rows):

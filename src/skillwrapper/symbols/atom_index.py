@@ -18,6 +18,10 @@ ANY = -1
 Columns = NDArray[np.intp]
 
 
+LiftedAtom = tuple[str, tuple[int, ...]]
+"""A predicate with the positions of its terms; at most one of them is ``ANY``."""
+
+
 @dataclass(frozen=True)
 class AtomPatterns:
     """Lifted atoms over the positions of a binding, ready to be looked up.
@@ -33,10 +37,6 @@ class AtomPatterns:
     first: Columns
     weights: Columns
     quantified: Columns
-
-    def select(self, chosen: Sequence[int]) -> AtomPatterns:
-        """Some of the patterns."""
-        return AtomPatterns(self.first[chosen], self.weights[chosen], self.quantified[chosen])
 
 
 class AtomIndex:
@@ -55,6 +55,7 @@ class AtomIndex:
         self.number = {o.name: n for n, o in enumerate(self._objects)}
         self._of_type: dict[str, NDArray[np.bool_]] = {}
         self._first: dict[str, int] = {}
+        self._compiled: dict[tuple[tuple[LiftedAtom, ...], int], AtomPatterns] = {}
         blocks: list[Columns] = []
         place = column = 0
         for predicate in predicates:
@@ -79,23 +80,17 @@ class AtomIndex:
             found &= self._of(name)
         return found
 
-    def patterns(self, atoms: Sequence[tuple[str, Sequence[int]]], positions: int) -> AtomPatterns:
-        """Compile lifted atoms.
+    def patterns(self, atoms: Iterable[LiftedAtom], positions: int) -> AtomPatterns:
+        """Compile lifted atoms, the same ones only once.
 
         Args:
-            atoms: for each the name of its predicate and the positions of its terms, at most one
-                of them ``ANY``.
+            atoms: the atoms.
             positions: number of positions of a binding.
         """
-        weights = np.zeros((len(atoms), positions + 1), dtype=np.intp)  # the last one for ANY
-        size = len(self._objects)
-        first = np.full(len(atoms), self._nowhere, dtype=np.intp)
-        for row, (name, terms) in enumerate(atoms):
-            if name in self._first:
-                first[row] = self._first[name]
-                for place, term in enumerate(reversed(terms)):
-                    weights[row, term] += size**place
-        return AtomPatterns(first, weights[:, :positions], weights[:, positions])
+        key = (tuple(atoms), positions)
+        if key not in self._compiled:
+            self._compiled[key] = self._compile(*key)
+        return self._compiled[key]
 
     def columns(self, patterns: AtomPatterns, bindings: Columns) -> Columns:
         """Columns (bindings, patterns) for bindings (bindings, positions); -1 where none is."""
@@ -110,6 +105,17 @@ class AtomIndex:
             return np.zeros((len(bindings), 0, size), dtype=np.intp)
         step = patterns.quantified[:, np.newaxis] * np.arange(size)
         return self._column[self._places(patterns, bindings)[:, :, np.newaxis] + step]
+
+    def _compile(self, atoms: tuple[LiftedAtom, ...], positions: int) -> AtomPatterns:
+        weights = np.zeros((len(atoms), positions + 1), dtype=np.intp)  # the last one for ANY
+        size = len(self._objects)
+        first = np.full(len(atoms), self._nowhere, dtype=np.intp)
+        for row, (name, terms) in enumerate(atoms):
+            if name in self._first:
+                first[row] = self._first[name]
+                for place, term in enumerate(reversed(terms)):
+                    weights[row, term] += size**place
+        return AtomPatterns(first, weights[:, :positions], weights[:, positions])
 
     def _places(self, patterns: AtomPatterns, bindings: Columns) -> Columns:
         places: Columns = bindings @ patterns.weights.T + patterns.first
