@@ -101,7 +101,7 @@ class EmbeddedModel:
         if "Statements" in prompt:
             return judge_picture(prompt, _first(sights), self._judgement, chance)
         if "Run so far" in prompt:
-            return plan_actions(prompt, *_now_and_goal(prompt, sights), chance)
+            return plan_actions(prompt, *_now_and_goal(prompt, sights), self._judgement, chance)
         if "Allowed parameters" in prompt:
             inventor = invent if "Executions" in prompt else invent_vocabulary
             return inventor(prompt, sights, self._judgement, chance)
