@@ -38,7 +38,7 @@ def test_read_rightly_and_only_once(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     def refuse(self: object, space: object, observations: object) -> None:
         pytest.fail("read again")
 
-    monkeypatch.setattr("skillwrapper.perception.truth_table.TruthTable.labels", refuse)
+    monkeypatch.setattr("skillwrapper.evaluation.plain_sight.PlainSight.labels", refuse)
     some = AtomSpace(model.predicates[2:4], model.domain.objects)
     columns = [atoms.column[atom] for atom in some.atoms]
     assert (truth.labels(some) == expected[:, columns]).all()

@@ -54,7 +54,7 @@ class LearnedMethod:
             solver = bench.solver(
                 stages[-1].model,
                 PictureReader(bench.environment, recorded),
-                PictureReader(bench.environment, bench.truth.table),
+                PictureReader(bench.environment, bench.truth.sight),
                 lambda: session.calls,
             )
             yield Prepared(

@@ -10,13 +10,10 @@ from typing import Final
 
 import numpy as np
 
+from skillwrapper.evaluation.plain_sight import PlainSight
 from skillwrapper.evaluation.state_space import StateSpace
-from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.folder import write_atomically
 from skillwrapper.symbols import AtomSpace, Labels, Predicate
-from skillwrapper.vlm.assistant import Assistant
-from skillwrapper.vlm.embedded.model import EmbeddedModel
-from skillwrapper.vlm.models import ModelSet
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.observation import Observation
 
@@ -27,9 +24,8 @@ TRUTH_LAYOUT: Final = 999_999_937
 class StateTruth:
     """Labels of learned predicates as the embedded model without noise reads them.
 
-    Drawing and reading all pictures of a domain takes half a minute, a further predicate some
-    seconds; so the labels of every predicate are kept, in memory and in a folder that several
-    processes may share.
+    Drawing and reading all pictures of a domain takes half a minute; so the labels of every
+    predicate are kept, in memory and in a folder that several processes may share.
 
     Args:
         environment: of this object alone; its layout must stay as it is.
@@ -37,7 +33,7 @@ class StateTruth:
         layout: seed of the layout of the pictures.
 
     Attributes:
-        table: labels of single pictures, read without error.
+        sight: labels of single pictures, read without error.
     """
 
     def __init__(
@@ -48,7 +44,7 @@ class StateTruth:
     ) -> None:
         environment.reset(seed=layout)
         self.environment = environment
-        self.table = TruthTable(environment.domain, Assistant(ModelSet.of(EmbeddedModel())))
+        self.sight = PlainSight()
         self._folder, self._layout = folder, layout
         self._known: dict[tuple[str, ...], Labels] = {}
 
@@ -81,7 +77,7 @@ class StateTruth:
         return self._known.get(key)
 
     def _read(self, atoms: AtomSpace) -> None:
-        labels, column = self.table.labels(atoms, self._pictures), 0
+        labels, column = self.sight.labels(atoms, self._pictures), 0
         for predicate in atoms.predicates:
             width = len(atoms.atoms_of[predicate.name])
             self._known[_key(predicate)] = labels[:, column : column + width]
