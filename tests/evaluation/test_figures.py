@@ -12,9 +12,9 @@ from made_up_cells import made_up_cell
 
 from skillwrapper.errors import MissingDependencyError
 from skillwrapper.evaluation import plots
-from skillwrapper.evaluation.efficiency import area_under
 from skillwrapper.evaluation.experiments import Experiment
 from skillwrapper.evaluation.figures import MethodFigures, Spread, compare, mcnemar
+from skillwrapper.evaluation.learning_curves import area_under
 from skillwrapper.evaluation.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.tables import Report
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from skillwrapper.domains.registry import domain_file
-from skillwrapper.evaluation.methods import Bench, Prepared, Stage
+from skillwrapper.evaluation.learning_curves import Stage
+from skillwrapper.evaluation.methods import Bench, Prepared
 from skillwrapper.evaluation.readers import AtomReader, PictureReader
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.assistants import open_assistant

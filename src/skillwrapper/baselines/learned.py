@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from skillwrapper.domains.registry import domain_file
-from skillwrapper.evaluation.methods import Bench, Prepared, Stage
+from skillwrapper.evaluation.learning_curves import read_stages
+from skillwrapper.evaluation.methods import Bench, Prepared
 from skillwrapper.evaluation.readers import PictureReader
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.assistants import open_assistant
@@ -16,7 +17,6 @@ from skillwrapper.run.config import RunConfig
 from skillwrapper.run.folder import RunFolder
 from skillwrapper.run.loop import LearningRun
 from skillwrapper.run.recorder import read_episode
-from skillwrapper.symbols.files import read_model
 from skillwrapper.world.episode import Episode
 
 
@@ -48,7 +48,7 @@ class LearnedMethod:
         path = bench.folder / "run"
         folder = RunFolder.create_or_resume(path, config, domain_file(config.domain))
         figures = _learn(bench, config, folder)
-        stages = read_stages(bench, folder)
+        stages = read_stages(folder, bench.environment.domain)
         with open_assistant(config, folder, learning=False) as session:
             recorded = TruthTable(bench.environment.domain, session.assistant)
             solver = bench.solver(
@@ -65,6 +65,7 @@ class LearnedMethod:
                 recorded,
                 config.learning.absences,
                 figures,
+                folder,
             )
 
 
@@ -74,16 +75,6 @@ def _learn(bench: Bench, config: RunConfig, folder: RunFolder) -> dict[str, Any]
         run = LearningRun(folder, config, bench.environment, session.assistant, session.note)
         result = run.run()
         return {**result.to_json(), "calls": session.calls}
-
-
-def read_stages(bench: Bench, folder: RunFolder) -> tuple[Stage, ...]:
-    """The model after every iteration of a run."""
-    executions, stages = 0, []
-    for number, episode in enumerate(read_episodes(folder), start=1):
-        executions += len(episode.transitions)
-        model = read_model(folder.iteration(number) / "model.json", bench.environment.domain)
-        stages.append(Stage(executions, model))
-    return tuple(stages)
 
 
 def read_episodes(folder: RunFolder) -> tuple[Episode, ...]:

@@ -13,7 +13,8 @@ from typing import Any, Final
 
 from skillwrapper.baselines.learned import read_episodes
 from skillwrapper.errors import InternalError
-from skillwrapper.evaluation.methods import Bench, Prepared, Stage
+from skillwrapper.evaluation.learning_curves import Stage
+from skillwrapper.evaluation.methods import Bench, Prepared
 from skillwrapper.evaluation.readers import StateReader, system_reader
 from skillwrapper.learning.certification import certify
 from skillwrapper.learning.dataset import Dataset

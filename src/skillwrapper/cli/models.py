@@ -9,7 +9,7 @@ import typer
 from rich.table import Table
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.cli.verification import print_verification, run_verification
+from skillwrapper.cli.verification import print_curve, print_verification, run_verification
 from skillwrapper.run.folder import RunFolder
 from skillwrapper.run.learned import LearnedRun
 from skillwrapper.symbols.describe import describe_operator
@@ -44,15 +44,23 @@ def verify(
     layout_seed: Annotated[
         int | None, typer.Option(min=0, help="Layout of the pictures; default: one not seen.")
     ] = None,
+    curve: Annotated[
+        bool,
+        typer.Option(
+            "--curve", help="Check every iteration's model; keep the curve for the report."
+        ),
+    ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Compare the model with the domain in every reachable state, read from its picture."""
     learned = LearnedRun.read(RunFolder.open(run))
-    verification = run_verification(learned, layout_seed, messages())
+    checked = run_verification(learned, layout_seed, messages(), curve=curve)
     if as_json:
-        print_json(verification.to_json())
-    else:
-        print_verification(verification, results())
+        print_json(checked.to_json())
+        return
+    print_verification(checked.verification, results())
+    if checked.curve:
+        print_curve(checked.curve, results())
 
 
 def _describe(learned: LearnedRun) -> dict[str, object]:

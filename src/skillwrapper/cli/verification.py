@@ -2,46 +2,104 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
 from rich.console import Console
 from rich.table import Table
 
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.state_truth import TRUTH_LAYOUT
-from skillwrapper.evaluation.verification import Verification, verify
+from skillwrapper.evaluation.learning_curves import (
+    CurvePoint,
+    area_under,
+    learning_curve,
+    read_stages,
+    write_curve,
+)
+from skillwrapper.evaluation.state_truth import TRUTH_LAYOUT, StateTruth
+from skillwrapper.evaluation.verification import Verification, verify_labels
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.assistants import open_assistant
 from skillwrapper.run.learned import LearnedRun
 from skillwrapper.symbols import AtomSpace
 from skillwrapper.world.environment import EnumerableEnvironment
 
+_CURVE_COLUMNS = (
+    "executions", "precision", "recall", "effect accuracy", "predicates", "operators",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What came of checking a run.
+
+    Attributes:
+        verification: of its final model.
+        curve: of the model after every iteration; empty if it was not asked for.
+    """
+
+    verification: Verification
+    curve: tuple[CurvePoint, ...] = ()
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data: the verification, and the curve if there is one."""
+        curve = {"curve": [vars(point) for point in self.curve]} if self.curve else {}
+        return {**self.verification.to_json(), **curve}
+
 
 def run_verification(
-    learned: LearnedRun, layout_seed: int | None, console: Console
-) -> Verification:
+    learned: LearnedRun, layout_seed: int | None, console: Console, *, curve: bool = False
+) -> Checked:
     """Verify the model of a run, read by the run's own model.
+
+    Args:
+        learned: the run.
+        layout_seed: of the layout of the pictures; None for the usual one.
+        console: for progress.
+        curve: also check the model of every iteration, and keep the curve in the run's folder.
 
     Raises:
         ConfigurationError: if the states of the domain cannot be listed.
     """
+    started = time.monotonic()
     config = learned.folder.config()
     environment = make_environment(config.domain)
     if not isinstance(environment, EnumerableEnvironment):
         raise ConfigurationError(
             f"{config.domain}: its states cannot be listed, so there is no exact verification"
         )
-    with open_assistant(config, learned.folder, learning=False) as session:
-        truth = TruthTable(environment.domain, session.assistant)
-        space = AtomSpace(learned.model.predicates, environment.domain.objects)
-        with console.status("reading the pictures of all reachable states"):
-            verification = verify(
-                environment,
-                learned.model,
-                lambda observations: truth.labels(space, observations),
-                seed=TRUTH_LAYOUT if layout_seed is None else layout_seed,
-            )
+    layout = TRUTH_LAYOUT if layout_seed is None else layout_seed
+    with (
+        open_assistant(config, learned.folder, learning=False) as session,
+        console.status("reading the pictures of all reachable states"),
+    ):
+        table = TruthTable(environment.domain, session.assistant)
+        truth = StateTruth(environment, layout=layout, sight=table)
+        atoms = AtomSpace(learned.model.predicates, environment.domain.objects)
+        labels = truth.labels(atoms)
+        found = verify_labels(environment, truth.space, learned.model, labels)
+        points: tuple[CurvePoint, ...] = ()
+        if curve:
+            stages = read_stages(learned.folder, environment.domain)
+            points = learning_curve(stages, truth.space, truth.labels)
+            write_curve(learned.folder, points)
     environment.close()
-    return verification
+    return Checked(replace(found, seconds=time.monotonic() - started), points)
+
+
+def print_curve(curve: Sequence[CurvePoint], console: Console) -> None:
+    """Print a learning curve with the area under its recall."""
+    table = Table(box=None, pad_edge=False)
+    for number, title in enumerate(_CURVE_COLUMNS):
+        table.add_column(title, justify="right" if number else "left")
+    for p in curve:
+        shares = (f"{v:.3f}" for v in (p.precision, p.recall, p.effect_accuracy))
+        table.add_row(str(p.executions), *shares, str(p.predicates), str(p.operators))
+    console.print(table)
+    area = area_under([(p.executions, p.recall) for p in curve])
+    console.print(f"area under recall: {area:.3f}")
 
 
 def print_verification(verification: Verification, console: Console) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 from skillwrapper.errors import RunFolderError
 from skillwrapper.evaluation.efficiency import efficiency_of
+from skillwrapper.evaluation.learning_curves import write_curve
 from skillwrapper.evaluation.methods import Bench, Cell, Method, Prepared
 from skillwrapper.evaluation.problems import ProblemSet
 from skillwrapper.evaluation.results import ProblemResult
@@ -87,6 +88,8 @@ def run_cell(
     with method.prepare(bench) as prepared:
         exact = _verify(prepared, bench.truth)
         efficiency = efficiency_of(prepared, bench.truth)
+        if efficiency is not None and prepared.run is not None:
+            write_curve(prepared.run, efficiency.curve)
         results = _solve_all(prepared, bench.folder / _PROBLEMS, problems, solved)
     result = CellResult(
         cell=bench.cell,

@@ -10,37 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
+from skillwrapper.evaluation.learning_curves import CurvePoint, area_under, learning_curve
 from skillwrapper.evaluation.methods import Prepared
-from skillwrapper.evaluation.predictions import Predictions, predict_all
 from skillwrapper.evaluation.state_truth import StateTruth
 from skillwrapper.exploration.coverage import PairCounts
 from skillwrapper.learning.dataset import Dataset, TruthSource
 from skillwrapper.learning.operators import learn_operators
-from skillwrapper.symbols import AbstractModel, GroundModel, Operator, Predicate
+from skillwrapper.symbols import Operator, Predicate
 from skillwrapper.world.domain import Domain
-
-
-@dataclass(frozen=True)
-class CurvePoint:
-    """The exact figures of a model on the way of learning.
-
-    Attributes:
-        executions: skills executed until then.
-        precision: as in ``verification.Verification``.
-        recall: likewise.
-        effect_accuracy: likewise.
-        predicates: number of predicates.
-        operators: number of operators.
-    """
-
-    executions: int
-    precision: float
-    recall: float
-    effect_accuracy: float
-    predicates: int
-    operators: int
 
 
 @dataclass(frozen=True)
@@ -70,7 +47,7 @@ def efficiency_of(prepared: Prepared, truth: StateTruth) -> Efficiency | None:
     """The efficiency of a method; None for one that executes nothing to learn."""
     if not prepared.episodes or prepared.label_all is None or prepared.recorded is None:
         return None
-    curve = learning_curve(prepared, truth)
+    curve = learning_curve(prepared.stages, truth.space, prepared.label_all)
     domain = truth.environment.domain
     vocabulary = prepared.stages[-1].model.predicates
     pairs = PairCounts(domain.skill_instances)
@@ -82,36 +59,6 @@ def efficiency_of(prepared: Prepared, truth: StateTruth) -> Efficiency | None:
         changing=share_changing(domain, prepared, prepared.recorded, vocabulary),
         pairs_covered=pairs.share_covered(),
     )
-
-
-def learning_curve(prepared: Prepared, truth: StateTruth) -> tuple[CurvePoint, ...]:
-    """Exact figures of every stage."""
-    points = []
-    for stage in prepared.stages:
-        predictions = _predict(prepared, truth, stage.model)
-        hits = int((predictions.applicable & truth.space.success).sum())
-        points.append(
-            CurvePoint(
-                executions=stage.executions,
-                precision=_ratio(hits, int(predictions.applicable.sum())),
-                recall=_ratio(hits, int(truth.space.success.sum())),
-                effect_accuracy=_ratio(
-                    int(predictions.effects_right.sum()), int(predictions.effects_made.sum())
-                ),
-                predicates=len(stage.model.predicates),
-                operators=len(stage.model.operators),
-            )
-        )
-    return tuple(points)
-
-
-def area_under(points: Sequence[tuple[int, float]]) -> float:
-    """Area under a rising staircase over executions, divided by all executions; 0 without any."""
-    area, height, position = 0.0, 0.0, 0
-    for executions, value in points:
-        area += height * (executions - position)
-        position, height = executions, value
-    return area / position if position else 0.0
 
 
 def share_changing(
@@ -134,13 +81,3 @@ def share_changing(
             changes += learned != known.get(skill.name, ())
             known[skill.name] = learned
     return changes / len(dataset) if len(dataset) else 0.0
-
-
-def _predict(prepared: Prepared, truth: StateTruth, model: AbstractModel) -> Predictions:
-    ground = GroundModel.of(model, truth.environment.domain.objects)
-    labels = prepared.label_all(ground.space) if prepared.label_all else np.zeros((0, 0), np.int8)
-    return predict_all(ground, truth.space, labels)
-
-
-def _ratio(part: int, whole: int) -> float:
-    return part / whole if whole else 1.0

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from skillwrapper.evaluation.learning_curves import Stage
 from skillwrapper.evaluation.problems import Problem
 from skillwrapper.evaluation.readers import StateReader
 from skillwrapper.evaluation.references import DomainReference
@@ -20,6 +21,7 @@ from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.learning.dataset import TruthSource
 from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.run.config import ModelSettings, RunConfig
+from skillwrapper.run.folder import RunFolder
 from skillwrapper.symbols import AbstractModel, AtomSpace, Labels
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.episode import Episode
@@ -120,19 +122,6 @@ class Solver(Protocol):
 
 
 @dataclass(frozen=True)
-class Stage:
-    """A model on the way of learning.
-
-    Attributes:
-        executions: skills executed until then.
-        model: what was learned from them.
-    """
-
-    executions: int
-    model: AbstractModel
-
-
-@dataclass(frozen=True)
 class Prepared:
     """A method that is ready for problems.
 
@@ -144,6 +133,7 @@ class Prepared:
         recorded: the labels of the recorded pictures that it learned from.
         absences: whether it learns universal absences.
         figures: what learning took and brought, as plain data.
+        run: the folder of its own run; None for methods that learn in none.
     """
 
     solver: Solver
@@ -153,6 +143,7 @@ class Prepared:
     recorded: TruthSource | None = None
     absences: bool = True
     figures: Mapping[str, Any] = field(default_factory=dict)
+    run: RunFolder | None = None
 
 
 class Method(Protocol):

@@ -12,6 +12,7 @@ import numpy as np
 
 from skillwrapper.evaluation.plain_sight import PlainSight
 from skillwrapper.evaluation.state_space import StateSpace
+from skillwrapper.learning.dataset import TruthSource
 from skillwrapper.run.folder import write_atomically
 from skillwrapper.symbols import AtomSpace, Labels, Predicate
 from skillwrapper.world.environment import EnumerableEnvironment
@@ -22,7 +23,7 @@ TRUTH_LAYOUT: Final = 999_999_937
 
 
 class StateTruth:
-    """Labels of learned predicates as the embedded model without noise reads them.
+    """Labels of learned predicates, by default as the embedded model without noise reads them.
 
     Drawing and reading all pictures of a domain takes half a minute; so the labels of every
     predicate are kept, in memory and in a folder that several processes may share.
@@ -31,9 +32,10 @@ class StateTruth:
         environment: of this object alone; its layout must stay as it is.
         folder: where labels are kept; None for in memory only.
         layout: seed of the layout of the pictures.
+        sight: reads the pictures; None for the embedded model without noise.
 
     Attributes:
-        sight: labels of single pictures, read without error.
+        sight: labels of single pictures.
     """
 
     def __init__(
@@ -41,10 +43,11 @@ class StateTruth:
         environment: EnumerableEnvironment,
         folder: Path | None = None,
         layout: int = TRUTH_LAYOUT,
+        sight: TruthSource | None = None,
     ) -> None:
         environment.reset(seed=layout)
         self.environment = environment
-        self.sight = PlainSight()
+        self.sight: TruthSource = sight or PlainSight()
         self._folder, self._layout = folder, layout
         self._known: dict[tuple[str, ...], Labels] = {}
 

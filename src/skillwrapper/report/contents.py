@@ -9,9 +9,10 @@ from typing import Any
 
 import yaml
 
+from skillwrapper.evaluation.learning_curves import EXACT_CURVE
 from skillwrapper.report.account import CallAccount, read_account
 from skillwrapper.report.charts import LineChart
-from skillwrapper.report.curves import EXACT_CURVE, learning_charts
+from skillwrapper.report.curves import learning_charts
 from skillwrapper.report.history import Decision, RunHistory
 from skillwrapper.report.labels import RecordedLabels
 from skillwrapper.report.strips import EpisodeStrips, lay_out

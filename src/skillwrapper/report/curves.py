@@ -10,9 +10,6 @@ from skillwrapper.errors import RunFolderError
 from skillwrapper.report.charts import LineChart, Series
 from skillwrapper.report.history import Iteration, RunHistory, read_json
 
-EXACT_CURVE = "curve.json"
-"""Optional, in the run's folder: a list of objects with ``executions`` and, as shares from 0 to
-1, any of ``recall``, ``precision`` and ``effect_accuracy`` of exact verification."""
 _EXACT = ("recall", "precision", "effect_accuracy")
 
 Measure = Callable[[Iteration], float | None]
