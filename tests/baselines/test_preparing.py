@@ -13,6 +13,7 @@ from skillwrapper.baselines.registry import method_of
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.errors import InternalError
+from skillwrapper.evaluation.bills import learning_bill
 from skillwrapper.evaluation.efficiency import efficiency_of
 from skillwrapper.evaluation.methods import Bench, Cell, CellSettings, Prepared
 from skillwrapper.evaluation.problems import read_problems
@@ -51,7 +52,9 @@ def test_learned_method_leaves_a_run(ours: Path) -> None:
     with prepared("ours", ours) as again:  # resumed: nothing is executed a second time
         assert [stage.executions for stage in again.stages] == [12, 24]
         assert again.figures["executions"] == 24
-        assert again.figures["calls"] > 0
+        bill = learning_bill(again.run)
+        assert bill is not None
+        assert (bill.calls > 0, bill.cost) == (True, 0.0)
         assert again.recorded is not None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillwrapper.evaluation.bills import Bill
 from skillwrapper.evaluation.causes import Cause
 from skillwrapper.evaluation.cells import CellResult
 from skillwrapper.evaluation.methods import Cell
@@ -26,6 +27,7 @@ def made_up_problem(
         length=4 if solved and possible else None,
         optimal=2 if possible else None,
         executions=4,
+        successes=3,
         planning_seconds=0.5,
         seconds=1.0,
         calls=2,
@@ -41,6 +43,7 @@ def made_up_cell(
     noise: str = "none",
     recall: float | None = 0.5,
     learned: bool = True,
+    cost: float | None = 0.5,
 ) -> CellResult:
     """A cell with two easy problems, a hard and an impossible one."""
     kinds = (EASY, EASY, HARD, IMPOSSIBLE)
@@ -55,7 +58,12 @@ def made_up_cell(
         cell=Cell(method, "burger", seed, noise),
         problems=problems,
         exact=None if recall is None else {**exact, "predicates": 4, "operators": 6},
-        learning={"executions": 10, "calls": 7} if learned else {},
+        learning={"executions": 10} if learned else {},
         efficiency=efficiency if learned else None,
         seconds=9.0,
+        bills={"learning": _bill(7, cost) if learned else None, "solving": _bill(8, cost)},
     )
+
+
+def _bill(calls: int, cost: float | None) -> dict[str, object]:
+    return Bill(calls, cost, None, None, 1.0).to_json()

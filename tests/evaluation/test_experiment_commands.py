@@ -35,6 +35,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert done.exit_code == 0, done.output
     data = json.loads(done.stdout)
     assert (data["finished"], data["failed"]) == (1, {})
+    made = dict(data["made"])
+    assert made["Command"].startswith("`skillwrapper experiment run")
+    assert made["Code"].startswith("skillwrapper ")
     return place / "out"
 
 

@@ -15,6 +15,7 @@ from skillwrapper.evaluation import plots
 from skillwrapper.evaluation.experiments import Experiment
 from skillwrapper.evaluation.figures import MethodFigures, Spread, compare, mcnemar
 from skillwrapper.evaluation.learning_curves import area_under
+from skillwrapper.evaluation.origins import Origin
 from skillwrapper.evaluation.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.tables import Report
 
@@ -56,6 +57,37 @@ def test_what_a_method_has_not_is_not_zero() -> None:
         assert vila.figures[name] is None
     # Both failed at the hard problem and said that it was impossible.
     assert vila.figures["falsely_impossible"] == Spread(pytest.approx(100 / 3), 0.0, 2)
+
+
+def test_an_unknown_cost_is_neither_zero_nor_left_out() -> None:
+    known = made_up_cell("ours", 0, ALL, cost=0.5)
+    unknown = made_up_cell("ours", 1, ALL, cost=None)
+    assert MethodFigures.of([known]).figures["cost"] == Spread(0.5, 0.0, 1)
+    both = MethodFigures.of([known, unknown])
+    assert both.figures["cost"] is None
+    assert both.is_unknown("cost")
+    assert both.is_unknown("learning_cost")
+    assert not figures(2, 3).is_unknown("learning_cost")  # nothing was asked
+    texts = {t.title: t.rows for t in Report.of(EXPERIMENT, [known, unknown]).tables()}
+    assert "unknown" in texts["Solving all problems (burger, noise none)"][0]
+    assert "unknown" in texts["Exploration and learning (burger, noise none)"][0]
+
+
+def test_the_paper_stands_beside() -> None:
+    table = next(t for t in report().tables() if t.title.startswith("Beside the paper"))
+    assert table.rows[0][:5] == ("ViLa", "25.0 ± 35.4", "46.0 ± 16.2", "7.8 ± 3.2", "-")
+    assert "real GPT-5" in to_markdown(report())
+
+
+def test_how_it_was_made_is_told() -> None:
+    made = {"skillwrapper": "1.0", "commit": "0123456789abcdef", "changed": True, "python": "3.11"}
+    told = Report.of(EXPERIMENT, CELLS, (Origin("skillwrapper experiment run x", made),))
+    text = to_markdown(told)
+    assert "- Command: `skillwrapper experiment run x`" in text
+    assert "commit 0123456789ab with uncommitted changes (Python 3.11)" in text
+    assert "- Seeds: 0, 1, 2" in text
+    assert "embedded model" in text
+    assert "% Seeds: 0, 1, 2" in to_latex(told)
 
 
 def test_comparison_is_paired_by_problem_and_seed() -> None:
@@ -114,7 +146,7 @@ def test_markdown_and_latex_and_csv() -> None:
     assert "embedded model" in markdown
     latex = to_latex(report())
     assert r"SkillWrapper (ours) & 75.0 $\pm$ 35.4" in latex
-    assert latex.count(r"\begin{tabular}") == latex.count(r"\end{tabular}") == 6
+    assert latex.count(r"\begin{tabular}") == latex.count(r"\end{tabular}") == 7
     assert r"easy \%" in latex
     rows = list(csv.DictReader(io.StringIO(to_csv(report()))))
     assert [row["method"] for row in rows] == ["vila", "ours"]

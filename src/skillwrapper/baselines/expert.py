@@ -49,7 +49,7 @@ class ExpertMethod:
             table = TruthTable(bench.environment.domain, session.assistant)
             reader = PictureReader(bench.environment, table)
             solver = bench.solver(model, reader, truth, lambda: session.calls)
-            yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states))
+            yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states), calls=folder)
 
 
 EXPERT: Final = ExpertMethod("expert", "Expert Operators, true states", reads_pictures=False)

@@ -65,7 +65,8 @@ class LearnedMethod:
                 recorded,
                 config.learning.absences,
                 figures,
-                folder,
+                run=folder,
+                calls=folder,
             )
 
 
@@ -73,8 +74,7 @@ def _learn(bench: Bench, config: RunConfig, folder: RunFolder) -> dict[str, Any]
     """Run what is left of the run; figures of the whole."""
     with open_assistant(config, folder) as session:
         run = LearningRun(folder, config, bench.environment, session.assistant, session.note)
-        result = run.run()
-        return {**result.to_json(), "calls": session.calls}
+        return run.run().to_json()
 
 
 def read_episodes(folder: RunFolder) -> tuple[Episode, ...]:

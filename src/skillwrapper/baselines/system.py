@@ -106,7 +106,6 @@ def _figures(fit: Fit, executions: int) -> dict[str, Any]:
         "lemma1_violations": certificate.count("lemma1"),
         "theorem1_violations": certificate.count("theorem1"),
         "inconsistencies": len(fit.inconsistencies),
-        "calls": 0,
     }
 
 

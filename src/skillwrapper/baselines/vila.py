@@ -72,6 +72,7 @@ class VilaSolver:
             budget=None,
             length=len(run.history) if reached else None,
             executions=len(run.history),
+            successes=sum(succeeded for _, succeeded in run.history),
             planning_seconds=0.0,
             seconds=time.monotonic() - started,
             calls=self.calls() - calls,
@@ -138,7 +139,8 @@ class VilaMethod:
                     session.assistant,
                     bench.settings.actions,
                     lambda: session.calls,
-                )
+                ),
+                calls=folder,
             )
 
 

@@ -24,7 +24,7 @@ from skillwrapper.evaluation.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.tables import Report
 from skillwrapper.evaluation.workers import ERROR, CellOutcome, open_workers
 
-_WIDE = 150
+_WIDE = 240
 """Columns of tables that do not go to a terminal."""
 
 FolderArgument = Annotated[Path, typer.Argument(help="Folder of an experiment.")]
@@ -60,6 +60,7 @@ def run(
 ) -> None:
     """Run all cells of an experiment; the same command again runs those that are missing."""
     folder = ExperimentFolder.create_or_resume(out, read_experiment(file))
+    folder.note_run(_command(file, out, workers, ray))
     cells = len(folder.experiment().cells)
     opened = open_ray_workers(out, ray) if ray is not None else open_workers(out, workers)
     console = messages()
@@ -67,7 +68,7 @@ def run(
         ended = _watch(progress, console, cells, folder)
         outcomes = run_experiment(folder, team, ended=ended)
     failed = [outcome for outcome in outcomes if outcome.error]
-    report = Report.of(folder.experiment(), tuple(folder.results()))
+    report = _report(folder)
     if as_json:
         errors = {outcome.cell.name: outcome.error for outcome in failed}
         print_json({"out": str(out), **report.to_json(), "failed": errors})
@@ -86,8 +87,7 @@ def table(
     as_json: JsonFlag = False,
 ) -> None:
     """Print the tables of an experiment, of whatever cells are finished."""
-    opened = ExperimentFolder.open(folder)
-    report = Report.of(opened.experiment(), tuple(opened.results()))
+    report = _report(ExperimentFolder.open(folder))
     writers: dict[TableFormat, Callable[[Report], str]] = {
         TableFormat.MARKDOWN: to_markdown,
         TableFormat.LATEX: to_latex,
@@ -118,6 +118,16 @@ def plot(
     else:
         for path in written:
             results().print(str(path), markup=False)
+
+
+def _command(file: Path, out: Path, workers: int, ray: str | None) -> str:
+    """The command as it was given, for those who want to repeat it."""
+    team = f"--workers {workers}" if ray is None else f"--ray {ray}"
+    return f"skillwrapper experiment run {file} --out {out} {team}"
+
+
+def _report(folder: ExperimentFolder) -> Report:
+    return Report.of(folder.experiment(), tuple(folder.results()), folder.runs())
 
 
 def _progress(console: Console) -> Progress:
@@ -159,5 +169,9 @@ def _print_report(report: Report, console: Console) -> None:
         for row in content.rows:
             shown.add_row(*row)
         console.print(shown)
+        if content.note:
+            console.print(content.note, markup=False)
         console.print("")
+    for label, text in report.made:
+        console.print(f"{label}: {text}", markup=False)
     console.print(report.note, markup=False)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from skillwrapper.errors import RunFolderError
+from skillwrapper.evaluation.bills import learning_bill, solving_bill
 from skillwrapper.evaluation.efficiency import efficiency_of
 from skillwrapper.evaluation.learning_curves import write_curve
 from skillwrapper.evaluation.methods import Bench, Cell, Method, Prepared
@@ -36,7 +37,9 @@ class CellResult:
         exact: precision, recall, ... of the final model on all states; None without a model.
         learning: what learning took and brought; empty for methods that do not learn.
         efficiency: what executions were worth; None for methods that execute none to learn.
-        seconds: time of everything.
+        seconds: time of everything, since the cell was last begun.
+        bills: what model calls took, for ``learning`` (None for methods that ask nothing then) and
+            ``solving``.
     """
 
     cell: Cell
@@ -45,6 +48,7 @@ class CellResult:
     learning: dict[str, Any]
     efficiency: dict[str, Any] | None
     seconds: float
+    bills: dict[str, dict[str, Any] | None] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data with the attributes as keys."""
@@ -86,21 +90,33 @@ def run_cell(
     """
     started = time.monotonic()
     with method.prepare(bench) as prepared:
+        learning = _learning(prepared, time.monotonic() - started)
         exact = _verify(prepared, bench.truth)
         efficiency = efficiency_of(prepared, bench.truth)
         if efficiency is not None and prepared.run is not None:
             write_curve(prepared.run, efficiency.curve)
         results = _solve_all(prepared, bench.folder / _PROBLEMS, problems, solved)
+    learned = learning_bill(prepared.run)
+    asked = solving_bill(prepared.calls, sum(r.calls for r in results), bench.settings.model)
     result = CellResult(
         cell=bench.cell,
         problems=results,
         exact=exact,
-        learning=dict(prepared.figures),
+        learning=learning,
         efficiency=efficiency.to_json() if efficiency else None,
         seconds=time.monotonic() - started,
+        bills={"learning": learned.to_json() if learned else None, "solving": asked.to_json()},
     )
     write_json(bench.folder / RESULT, result.to_json())
     return result
+
+
+def _learning(prepared: Prepared, seconds: float) -> dict[str, Any]:
+    """What learning took and brought; nothing for methods that do not learn."""
+    if not prepared.figures:
+        return {}
+    successes = sum(t.success for e in prepared.episodes for t in e.transitions)
+    return {**prepared.figures, "successes": successes, "seconds": seconds}
 
 
 def _verify(prepared: Prepared, truth: StateTruth) -> dict[str, Any] | None:

@@ -2,6 +2,7 @@
 
 experiment.yaml         what was asked for, with versions and commit
 problems/burger.yaml    the problems that are solved
+runs.jsonl              every command that ran cells, with versions and commit
 cells/<cell>/           result.json, problems.jsonl, run/ (like any other run), error.txt
 truth/                  labels of predicates in all states, shared by all cells
 """
@@ -21,14 +22,16 @@ from skillwrapper.errors import ConfigurationError, RunFolderError
 from skillwrapper.evaluation.cells import RESULT, CellResult
 from skillwrapper.evaluation.experiments import Experiment
 from skillwrapper.evaluation.methods import Cell
+from skillwrapper.evaluation.origins import Origin
 from skillwrapper.evaluation.problems import ProblemSet, read_problems
 from skillwrapper.evaluation.references import reference_of
-from skillwrapper.run.folder import write_atomically
+from skillwrapper.run.folder import append_line, read_lines, write_atomically
 from skillwrapper.run.provenance import provenance
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.yaml_files import YamlDocument
 
 _EXPERIMENT = "experiment.yaml"
+_RUNS = "runs.jsonl"
 _LOCK = ".lock"
 
 
@@ -88,6 +91,16 @@ class ExperimentFolder:
         document = YamlDocument.read(self.path / _EXPERIMENT)
         inner = document.data.get("experiment") if isinstance(document.data, dict) else None
         return YamlDocument(document.path, inner, None).validate(Experiment)
+
+    def note_run(self, command: str) -> None:
+        """Note that a command runs what is not finished yet, and with which code."""
+        if any(not self.is_finished(cell) for cell in self.experiment().cells):
+            append_line(self.path / _RUNS, {"command": command, "made_with": provenance()})
+
+    def runs(self) -> tuple[Origin, ...]:
+        """The commands that ran cells, in order of time."""
+        lines = read_lines(self.path / _RUNS)
+        return tuple(Origin(line["command"], line["made_with"]) for line in lines)
 
     def problem_file(self, domain: str) -> Path:
         """Where the problems of a domain stand."""

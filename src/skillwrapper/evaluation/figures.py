@@ -76,6 +76,22 @@ def _efficiency(key: str) -> Figure:
     return lambda cell: cell.efficiency[key] if cell.efficiency else None
 
 
+def _bill(part: str, key: str) -> Figure:
+    def figure(cell: CellResult) -> float | None:
+        found = cell.bills.get(part)
+        return found[key] if found else None
+
+    return figure
+
+
+def _verdict(name: str) -> Figure:
+    def figure(cell: CellResult) -> float | None:
+        verdict = cell.exact.get(name) if cell.exact else None
+        return None if verdict is None else 100 * float(verdict)
+
+    return figure
+
+
 def _falsely_impossible(cell: CellResult) -> float | None:
     solvable = [p for p in cell.problems if p.kind is not IMPOSSIBLE]
     return _share([p.claimed_impossible for p in solvable])
@@ -97,26 +113,42 @@ FIGURES: Final[Mapping[str, Figure]] = MappingProxyType(
         "precision": _exact("precision"),
         "recall": _exact("recall"),
         "effect_accuracy": _exact("effect_accuracy"),
+        "sound": _verdict("sound"),
+        "complete": _verdict("complete"),
+        "suitable": _verdict("suitable"),
         "predicates": _exact("predicates"),
         "operators": _exact("operators"),
         "lemma1_violations": _learning("lemma1_violations"),
         "theorem1_violations": _learning("theorem1_violations"),
         "inconsistencies": _learning("inconsistencies"),
+        "unresolved": _learning("unresolved"),
         "learning_executions": _learning("executions"),
-        "learning_calls": _learning("calls"),
+        "learning_successes": _learning("successes"),
+        "learning_calls": _bill("learning", "calls"),
+        "learning_cost": _bill("learning", "cost"),
+        "learning_seconds": _learning("seconds"),
         "area": _efficiency("area"),
         "changing": _efficiency("changing"),
         "pairs_covered": _efficiency("pairs_covered"),
         "executions": lambda cell: float(sum(p.executions for p in cell.problems)),
+        "successes": lambda cell: float(sum(p.successes for p in cell.problems)),
         "calls": lambda cell: float(sum(p.calls for p in cell.problems)),
+        "cost": _bill("solving", "cost"),
         "planning_easy": _planning_time(EASY),
         "planning_hard": _planning_time(HARD),
         "planning_impossible": _planning_time(IMPOSSIBLE),
+        "solving_seconds": lambda cell: sum(p.seconds for p in cell.problems),
         "seconds": lambda cell: cell.seconds,
     }
 )
-"""Figures of a cell by name. Shares of problems in percent, times in seconds; None if there is no
-such figure, e.g. no budget of a method that makes no plans."""
+"""Figures of a cell by name. Shares of problems and verdicts in percent, times in seconds, costs in
+US dollars; None if there is no such figure, e.g. no budget of a method that makes no plans."""
+
+COSTS: Final[Mapping[str, str]] = MappingProxyType(
+    {"cost": "calls", "learning_cost": "learning_calls"}
+)
+"""Figures that may be unknown, each with the one that says whether there is anything to know. A
+cost that is unknown for one seed is unknown for the method: the others' mean would be too low."""
 
 
 @dataclass(frozen=True)
@@ -149,9 +181,13 @@ class MethodFigures:
             domain=first.domain,
             noise=first.noise,
             seeds=tuple(c.cell.seed for c in cells),
-            figures={name: Spread.of(map(figure, cells)) for name, figure in FIGURES.items()},
+            figures={name: _spread(name, cells) for name in FIGURES},
             causes=dict(sorted(causes.items())),
         )
+
+    def is_unknown(self, name: str) -> bool:
+        """Whether there is such a figure, but nobody knows it."""
+        return self.figures[name] is None and self.figures.get(COSTS.get(name, "")) is not None
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: each figure an object with ``mean`` and ``std``, or null."""
@@ -242,6 +278,11 @@ def mcnemar(wins: int, losses: int) -> float:
     total = wins + losses
     tail = sum(math.comb(total, k) for k in range(min(wins, losses) + 1))
     return float(min(1.0, 2 * tail / 2**total))
+
+
+def _spread(name: str, cells: Sequence[CellResult]) -> Spread | None:
+    values = [FIGURES[name](cell) for cell in cells]
+    return None if name in COSTS and None in values else Spread.of(values)
 
 
 def _of(cell: CellResult, kind: ProblemClass) -> list[ProblemResult]:

@@ -134,6 +134,7 @@ class Prepared:
         absences: whether it learns universal absences.
         figures: what learning took and brought, as plain data.
         run: the folder of its own run; None for methods that learn in none.
+        calls: the folder that keeps its model calls; None for methods that ask no model.
     """
 
     solver: Solver
@@ -144,6 +145,7 @@ class Prepared:
     absences: bool = True
     figures: Mapping[str, Any] = field(default_factory=dict)
     run: RunFolder | None = None
+    calls: RunFolder | None = None
 
 
 class Method(Protocol):

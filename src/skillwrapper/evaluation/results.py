@@ -25,6 +25,7 @@ class ProblemResult:
         length: number of skills of the plan that solved it; None if none did.
         optimal: number of skills of an optimal solution; None if there is none.
         executions: skills executed.
+        successes: how many of them succeeded.
         planning_seconds: time that the planner took.
         seconds: time of everything.
         calls: questions that were put to models.
@@ -44,6 +45,7 @@ class ProblemResult:
     planning_seconds: float
     seconds: float
     calls: int
+    successes: int = 0
     cause: Cause | None = None
     detail: str = ""
     plan: tuple[str, ...] = ()

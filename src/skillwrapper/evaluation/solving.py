@@ -73,6 +73,7 @@ class ModelSolver:
             budget=None if impossible else report.budget,
             length=len(report.attempts[-1].plan) if report.solved else None,
             executions=report.executions,
+            successes=sum(o.success for a in report.attempts for o in a.outcomes),
             planning_seconds=found.seconds,
             seconds=time.monotonic() - started,
             calls=calls,

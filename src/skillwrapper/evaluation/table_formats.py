@@ -14,18 +14,21 @@ _LATEX_SPECIAL = re.compile(r"[&%$#_{}]")
 
 def to_markdown(report: Report) -> str:
     """All tables, each under a heading."""
-    parts = [f"# {report.experiment.name}", report.note]
+    parts = [f"# {report.experiment.name}", report.experiment.description, report.note]
+    parts.append("\n".join(f"- {label}: {text}" for label, text in report.made))
     for table in report.tables():
         parts.append(f"## {table.title}")
         ruler = ("---", *("---:" for _ in table.headings[1:]))
         lines = (table.headings, ruler, *table.rows)
         parts.append("\n".join(f"| {' | '.join(cells)} |" for cells in lines))
-    return "\n\n".join(parts) + "\n"
+        parts.append(table.note)
+    return "\n\n".join(filter(None, parts)) + "\n"
 
 
 def to_latex(report: Report) -> str:
     """All tables as ``tabular`` with the rules of the package ``booktabs``."""
-    parts = [f"% {report.experiment.name}: {report.note}"]
+    made = (f"% {label}: {text}" for label, text in report.made)
+    parts = ["\n".join((f"% {report.experiment.name}: {report.note}", *made))]
     parts += [_latex_table(table) for table in report.tables()]
     return "\n\n".join(parts) + "\n"
 
@@ -49,7 +52,7 @@ def _latex_table(table: Table) -> str:
     rows = [r" & ".join(map(_latex, row)) + r" \\" for row in (table.headings, *table.rows)]
     columns = "l" + "r" * (len(table.headings) - 1)
     lines = [
-        f"% {table.title}",
+        *(f"% {text}" for text in (table.title, table.note) if text),
         rf"\begin{{tabular}}{{{columns}}}",
         r"\toprule",
         rows[0],

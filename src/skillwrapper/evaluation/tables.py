@@ -16,6 +16,8 @@ from skillwrapper.evaluation.figures import (
     compare,
     group_cells,
 )
+from skillwrapper.evaluation.origins import Origin
+from skillwrapper.evaluation.paper_figures import PAPER_FIGURES, PAPER_NOTE
 
 MAIN_METHOD: Final = "ours"
 """What the others are compared with, if it takes part."""
@@ -45,30 +47,46 @@ _LAYOUTS: tuple[tuple[str, tuple[tuple[str, str, int], ...]], ...] = (
             ("precision", "precision", 3),
             ("recall", "recall", 3),
             ("effect accuracy", "effect_accuracy", 3),
+            ("sound %", "sound", 0),
+            ("complete %", "complete", 0),
+            ("suitable %", "suitable", 0),
             ("predicates", "predicates", 1),
             ("operators", "operators", 1),
-            ("Lemma 1 violations", "lemma1_violations", 1),
-            ("Theorem 1 violations", "theorem1_violations", 1),
         ),
     ),
     (
-        "Exploration",
+        "The certificate, on the recorded data",
+        (
+            ("Lemma 1 violations", "lemma1_violations", 1),
+            ("Theorem 1 violations", "theorem1_violations", 1),
+            ("inconsistencies", "inconsistencies", 1),
+            ("unresolved", "unresolved", 1),
+        ),
+    ),
+    (
+        "Exploration and learning",
         (
             ("executions", "learning_executions", 0),
+            ("successes", "learning_successes", 0),
             ("model calls", "learning_calls", 0),
+            ("cost, $", "learning_cost", 2),
+            ("time, s", "learning_seconds", 0),
             ("area under recall", "area", 3),
             ("changed the model", "changing", 3),
             ("pairs covered", "pairs_covered", 3),
         ),
     ),
     (
-        "Cost of solving",
+        "Solving all problems",
         (
             ("executions", "executions", 0),
+            ("successes", "successes", 0),
             ("model calls", "calls", 0),
+            ("cost, $", "cost", 2),
             ("planning easy, s", "planning_easy", 3),
             ("planning hard, s", "planning_hard", 3),
             ("planning impossible, s", "planning_impossible", 3),
+            ("solving, s", "solving_seconds", 0),
             ("whole cell, s", "seconds", 0),
         ),
     ),
@@ -83,11 +101,13 @@ class Table:
         title: what it shows.
         headings: of the columns.
         rows: as many texts as headings each.
+        note: what must be said with it; may be empty.
     """
 
     title: str
     headings: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -99,15 +119,22 @@ class Report:
         finished: number of finished cells.
         methods: figures of every method, by domain and noise, in the order of tables.
         comparisons: of every method with the main one.
+        origins: the commands that ran the cells.
     """
 
     experiment: Experiment
     finished: int
     methods: tuple[MethodFigures, ...]
     comparisons: tuple[Comparison, ...]
+    origins: tuple[Origin, ...] = ()
 
     @classmethod
-    def of(cls, experiment: Experiment, cells: Sequence[CellResult]) -> Report:
+    def of(
+        cls,
+        experiment: Experiment,
+        cells: Sequence[CellResult],
+        origins: Sequence[Origin] = (),
+    ) -> Report:
         """Put the report of the finished cells together."""
         methods: list[MethodFigures] = []
         comparisons: list[Comparison] = []
@@ -118,7 +145,7 @@ class Report:
             comparisons += [
                 compare(by_method[main], by_method[name]) for name in names if name != main
             ]
-        return cls(experiment, len(cells), tuple(methods), tuple(comparisons))
+        return cls(experiment, len(cells), tuple(methods), tuple(comparisons), tuple(origins))
 
     @property
     def note(self) -> str:
@@ -128,11 +155,36 @@ class Report:
             f"{cells} {_EMBEDDED_NOTE}" if self.experiment.settings.model == "embedded" else cells
         )
 
+    @property
+    def made(self) -> tuple[tuple[str, str], ...]:
+        """How the figures were made: what, in words, by what."""
+        asked, settings, chosen = (
+            self.experiment,
+            self.experiment.settings,
+            self.experiment.problems,
+        )
+        commands = dict.fromkeys(f"`{origin.command}`" for origin in self.origins)
+        codes = dict.fromkeys(origin.code for origin in self.origins)
+        return (
+            *(("Command", command) for command in commands),
+            *(("Code", code) for code in codes),
+            ("Seeds", ", ".join(map(str, asked.seeds))),
+            ("Model", settings.model),
+            ("Noise", ", ".join(asked.noise)),
+            ("Learning", f"{settings.iterations} iterations of {settings.budget} executions"),
+            (
+                "Problems",
+                f"at most {chosen.easy} easy, {chosen.hard} hard, {chosen.impossible} impossible",
+            ),
+            ("Planning", f"at most {settings.time_limit:g} s a problem"),
+        )
+
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
             "experiment": self.experiment.name,
             "note": self.note,
+            "made": [list(pair) for pair in self.made],
             "cells": len(self.experiment.cells),
             "finished": self.finished,
             "methods": [method.to_json() for method in self.methods],
@@ -145,7 +197,8 @@ class Report:
         for group in dict.fromkeys((m.domain, m.noise) for m in self.methods):
             mine = [m for m in self.methods if (m.domain, m.noise) == group]
             where = f"{group[0]}, noise {group[1]}"
-            found += [_figures(f"{title} ({where})", mine, layout) for title, layout in _LAYOUTS]
+            tables = [_figures(f"{title} ({where})", mine, layout) for title, layout in _LAYOUTS]
+            found += [tables[0], _beside_paper(where, mine), *tables[1:]]
             found.append(_causes(where, mine))
             theirs = [c for c in self.comparisons if (c.domain, c.noise) == group]
             found.append(_comparisons(where, theirs))
@@ -157,11 +210,29 @@ def _figures(
 ) -> Table:
     """A table without the methods that have none of its figures."""
     rows = tuple(
-        (_title(m.method), *(_show(m.figures[name], decimals) for _, name, decimals in layout))
+        (_title(m.method), *(_figure(m, name, decimals) for _, name, decimals in layout))
         for m in methods
         if any(m.figures[name] is not None for _, name, _ in layout)
     )
     return Table(title, ("method", *(heading for heading, _, _ in layout)), rows)
+
+
+def _beside_paper(where: str, methods: Sequence[MethodFigures]) -> Table:
+    """Our figures and the paper's, of the methods and domains that are in both."""
+    names = ("easy", "budget_easy", "hard", "budget_hard", "impossible")
+    rows = []
+    for method in methods:
+        row = PAPER_FIGURES.get(method.domain, {}).get(method.method)
+        if row is not None:
+            pairs = ((_figure(method, name, 1), _paper(getattr(row, name))) for name in names)
+            rows.append((_title(method.method), *(text for pair in pairs for text in pair)))
+    headings = ("easy %", "budget", "hard %", "budget", "impossible %")
+    columns = ("method", *(text for heading in headings for text in (heading, "paper")))
+    return Table(f"Beside the paper ({where})", columns, tuple(rows), PAPER_NOTE)
+
+
+def _paper(figure: tuple[float, float] | None) -> str:
+    return "-" if figure is None else f"{figure[0]:.1f} ± {figure[1]:.1f}"
 
 
 def _causes(where: str, methods: Sequence[MethodFigures]) -> Table:
@@ -188,6 +259,10 @@ def _comparisons(where: str, comparisons: Sequence[Comparison]) -> Table:
     )
     headings = ("methods", "difference, %", "only the first", "only the second", "p (McNemar)")
     return Table(f"Same problems, same seeds ({where})", headings, rows)
+
+
+def _figure(method: MethodFigures, name: str, decimals: int) -> str:
+    return "unknown" if method.is_unknown(name) else _show(method.figures[name], decimals)
 
 
 def _show(spread: Spread | None, decimals: int) -> str:
