@@ -1,4 +1,4 @@
-"""``skillwrapper report``: a run as one page to read."""
+"""``skillwrapper report``: a run or an experiment as one page to read."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from skillwrapper.cli.output import JsonFlag, print_json, results
-from skillwrapper.report import ReportSettings, write_report
+from skillwrapper.evaluation.experiment_folder import ExperimentFolder
+from skillwrapper.report import ReportSettings, write_experiment_report, write_report
 from skillwrapper.run.folder import RunFolder
 
 
@@ -18,9 +19,9 @@ def register(app: typer.Typer) -> None:
 
 
 def report(
-    run: Annotated[Path, typer.Argument(help="Folder of a run.")],
+    run: Annotated[Path, typer.Argument(help="Folder of a run or an experiment.")],
     out: Annotated[
-        Path | None, typer.Option(help="HTML file to write; default: RUN/report.html.")
+        Path | None, typer.Option(help="HTML file to write; default: report.html in the folder.")
     ] = None,
     episodes: Annotated[
         int, typer.Option(min=0, help="Episodes shown with their pictures, at most.")
@@ -28,9 +29,12 @@ def report(
     width: Annotated[int, typer.Option(min=32, help="Width of the pictures in pixels.")] = 224,
     as_json: JsonFlag = False,
 ) -> None:
-    """Write one HTML file that shows what was learned, from what, and at what price."""
-    settings = ReportSettings(picture_width=width, episodes=episodes)
-    written = write_report(RunFolder.open(run), out, settings)
+    """Write one HTML file: what a run learned, from what, at what price; or how methods compare."""
+    if ExperimentFolder.is_one(run):
+        written = write_experiment_report(ExperimentFolder.open(run), out, width)
+    else:
+        settings = ReportSettings(picture_width=width, episodes=episodes)
+        written = write_report(RunFolder.open(run), out, settings)
     if as_json:
         print_json({"report": str(written), "bytes": written.stat().st_size})
     else:

@@ -54,7 +54,7 @@ class ExperimentFolder:
         """
         folder = cls(path)
         sets = {name: _choose(experiment, name) for name in experiment.domains}
-        if (path / _EXPERIMENT).exists():
+        if cls.is_one(path):
             folder._compare(experiment, sets)
             return folder
         if path.exists() and (not path.is_dir() or any(path.iterdir())):
@@ -75,12 +75,17 @@ class ExperimentFolder:
         Raises:
             RunFolderError: if there is none.
         """
-        if not (path / _EXPERIMENT).is_file():
+        if not cls.is_one(path):
             raise RunFolderError(
                 f"{path}: expected the folder of an experiment (with {_EXPERIMENT}); "
                 "make one with: skillwrapper experiment run FILE --out DIR"
             )
         return cls(path)
+
+    @staticmethod
+    def is_one(path: Path) -> bool:
+        """Whether a path is the folder of an experiment."""
+        return (path / _EXPERIMENT).is_file()
 
     def experiment(self) -> Experiment:
         """What was asked for.

@@ -37,15 +37,8 @@ def render_report(folder: RunFolder, settings: ReportSettings | None = None) -> 
     """
     settings = settings or ReportSettings()
     pictures = PictureBook(folder.path / "images", settings.picture_width)
-    environment = Environment(
-        loader=PackageLoader("skillwrapper", _TEMPLATES),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=StrictUndefined,
-    )
+    environment = page_environment()
     environment.globals["picture_uri"] = pictures.uri
-    environment.globals["style"] = partial(_read_style, environment)
     contents = ReportContents.gather(folder, settings.episodes)
     return environment.get_template("report.html.j2").render(run=contents)
 
@@ -61,6 +54,19 @@ def write_report(
     target = out or folder.path / "report.html"
     write_atomically(target, render_report(folder, settings))
     return target
+
+
+def page_environment() -> Environment:
+    """What renders the templates of reports."""
+    environment = Environment(
+        loader=PackageLoader("skillwrapper", _TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+    environment.globals["style"] = partial(_read_style, environment)
+    return environment
 
 
 def _read_style(environment: Environment) -> Markup:
