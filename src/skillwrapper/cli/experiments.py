@@ -13,6 +13,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table as RichTable
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.experiment_folder import ExperimentFolder
 from skillwrapper.evaluation.experiments import read_experiment
@@ -23,9 +24,6 @@ from skillwrapper.evaluation.running import run_experiment
 from skillwrapper.evaluation.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.tables import Report
 from skillwrapper.evaluation.workers import ERROR, CellOutcome, open_workers
-
-_WIDE = 240
-"""Columns of tables that do not go to a terminal."""
 
 FolderArgument = Annotated[Path, typer.Argument(help="Folder of an experiment.")]
 
@@ -73,7 +71,7 @@ def run(
         errors = {outcome.cell.name: outcome.error for outcome in failed}
         print_json({"out": str(out), **report.to_json(), "failed": errors})
     else:
-        _print_report(report, results())
+        _print_report(report, table_console())
         results().print(f"again:  skillwrapper experiment table {out}", markup=False)
     if failed:
         raise typer.Exit(1)
@@ -98,7 +96,7 @@ def table(
     elif style in writers:
         typer.echo(writers[style](report), nl=False)
     else:
-        _print_report(report, results())
+        _print_report(report, table_console())
 
 
 def plot(
@@ -159,8 +157,6 @@ def _describe(folder: ExperimentFolder, cell: Cell) -> str:
 
 
 def _print_report(report: Report, console: Console) -> None:
-    if not console.is_terminal:  # a file or pipe has no width that would have to be kept
-        console.width = _WIDE
     for content in report.tables():
         shown = RichTable(title=content.title, title_justify="left", box=None, pad_edge=False)
         for number, heading in enumerate(content.headings):

@@ -9,7 +9,8 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.output import JsonFlag, messages, print_json
+from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.evaluation.study.conditions import CONDITIONS, find_conditions
 from skillwrapper.evaluation.study.invention import study_invention
 from skillwrapper.evaluation.study.models import StudiedModel
@@ -120,7 +121,7 @@ def _show(
 
 
 def _print(table: StudyTable) -> None:
-    console = results()
+    console = table_console()
     shown = Table(title=table.title, title_justify="left", title_style="bold", box=None)
     for number, column in enumerate(table.columns):
         shown.add_column(column, justify="right" if number else "left", overflow="fold")
