@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -26,7 +27,7 @@ def test_ray_not_installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.filterwarnings("ignore")
 def test_killed_worker_loses_nothing(tmp_path: Path) -> None:
     ray = pytest.importorskip("ray")
-    tests = str(Path(__file__).parent)
+    tests = os.pathsep.join((str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")))
     ray.init(
         num_cpus=2,
         include_dashboard=False,
