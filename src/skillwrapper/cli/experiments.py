@@ -58,11 +58,11 @@ def run(
 ) -> None:
     """Run all cells of an experiment; the same command again runs those that are missing."""
     folder = ExperimentFolder.create_or_resume(out, read_experiment(file))
-    folder.note_run(_command(file, out, workers, ray))
     cells = len(folder.experiment().cells)
     opened = open_ray_workers(out, ray) if ray is not None else open_workers(out, workers)
     console = messages()
     with folder.reserved(), opened as team, _progress(console) as progress:
+        folder.note_run(_command(file, out, workers, ray))
         ended = _watch(progress, console, cells, folder)
         outcomes = run_experiment(folder, team, ended=ended)
     failed = [outcome for outcome in outcomes if outcome.error]
