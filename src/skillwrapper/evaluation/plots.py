@@ -146,23 +146,26 @@ def _problem_matrix(figure_of: Any, by_method: dict[str, list[CellResult]], wher
 
 
 def _noise_curves(figure_of: Any, cells: Sequence[CellResult], domain: str) -> Any | None:
-    """Problems solved over the error rate of perception; profiles that are no rate are left out."""
-    rates = sorted({rate for c in cells if (rate := _rate(c.cell.noise)) is not None})
+    """Problems solved over the error rate of perception; profiles that are no rate to the right."""
+    noises = dict.fromkeys(c.cell.noise for c in cells)
+    rates = sorted((100 * rate, n) for n in noises if (rate := _rate(n)) is not None)
     if len(rates) < 2:
         return None
+    step = rates[-1][0] / 8
+    profiles = [n for n in noises if _rate(n) is None]
+    beside = [(rates[-1][0] + step * (k + 1.5), name) for k, name in enumerate(profiles)]
     figure = figure_of(figsize=_WIDE_INCHES, layout="constrained")
     figure.suptitle(f"Problems solved with wrong perception ({domain})")
+    methods = [name for name in METHODS if any(c.cell.method == name for c in cells)]
     for position, kind in enumerate(("easy", "hard", "impossible"), start=1):
         axes = figure.add_subplot(1, 3, position)
-        for name in METHODS:
+        for number, name in enumerate(methods):
             mine = [c for c in cells if c.cell.method == name]
-            points = [(rate, _at(mine, rate, kind)) for rate in rates]
-            known = [(100 * rate, s) for rate, s in points if s is not None]
-            if known:
-                x, spreads = zip(*known, strict=True)
-                mean, std = [s.mean for s in spreads], [s.std for s in spreads]
-                label = METHODS[name].title
-                axes.errorbar(x, mean, std, capsize=2, label=label, **_style(name))
+            shift = step / 5 * (number - (len(methods) - 1) / 2) / max(1, len(methods) - 1)
+            _noise_line(axes, name, _spreads(mine, rates, kind, shift))
+            _noise_line(axes, name, _spreads(mine, beside, kind, 3 * shift), joined=False)
+        ticks = [*((x, f"{x:g}") for x, _ in rates if x == 0 or x >= step), *beside]
+        axes.set_xticks(*zip(*ticks, strict=True), fontsize=8)
         axes.set(xlabel="wrong judgements, %", ylim=(-3, 103), title=kind)
         axes.grid(alpha=0.3)
     figure.axes[0].set_ylabel("solved, %")
@@ -170,15 +173,36 @@ def _noise_curves(figure_of: Any, cells: Sequence[CellResult], domain: str) -> A
     return figure
 
 
+def _noise_line(
+    axes: Any, method: str, points: Sequence[tuple[float, Spread]], *, joined: bool = True
+) -> None:
+    """Means with a standard deviation to both sides, as far as percentages go."""
+    if not points:
+        return
+    x, spreads = zip(*points, strict=True)
+    mean = np.array([s.mean for s in spreads])
+    std = np.array([s.std for s in spreads])
+    bars = (np.minimum(std, mean), np.minimum(std, 100 - mean))
+    line = {"label": METHODS[method].title} if joined else {"linestyle": "none"}
+    axes.errorbar(x, mean, bars, capsize=2, elinewidth=0.8, **{**_style(method), **line})
+
+
+def _spreads(
+    cells: Sequence[CellResult], noises: Sequence[tuple[float, str]], kind: str, shift: float
+) -> list[tuple[float, Spread]]:
+    """A figure at every noise; shifted a little, so that methods do not hide each other."""
+    found = [
+        (x + shift, Spread.of(FIGURES[kind](c) for c in cells if c.cell.noise == noise))
+        for x, noise in noises
+    ]
+    return [(x, spread) for x, spread in found if spread is not None]
+
+
 def _rate(noise: str) -> float | None:
     try:
         return 0.0 if noise == "none" else float(noise)
     except ValueError:
         return None
-
-
-def _at(cells: Sequence[CellResult], rate: float, kind: str) -> Spread | None:
-    return Spread.of(FIGURES[kind](c) for c in cells if _rate(c.cell.noise) == rate)
 
 
 def _add_legend(figure: Any) -> None:
