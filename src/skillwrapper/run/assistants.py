@@ -22,12 +22,12 @@ from skillwrapper.vlm.protocol import (
     ModelReply,
     ModelRequest,
     Role,
-    TakesBack,
     VisionLanguageModel,
 )
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.retrying import RetryPolicy
 from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.wrapping import ModelWrapper
 
 EMBEDDED = "embedded"
 _KINDS: Mapping[str, str] = MappingProxyType(
@@ -77,20 +77,16 @@ class Session:
             self.calls += 1
 
 
-class _Counted:
+class _Counted(ModelWrapper):
     """A model whose answers are counted in a session."""
 
     def __init__(self, model: VisionLanguageModel, session: Session) -> None:
-        self._model, self._session = model, session
-        self.name, self.parameters = model.name, model.parameters
+        super().__init__(model)
+        self._session = session
 
     def complete(self, request: ModelRequest) -> ModelReply:
         self._session.count_call()
-        return self._model.complete(request)
-
-    def take_back(self, request: ModelRequest) -> None:
-        if isinstance(self._model, TakesBack):
-            self._model.take_back(request)
+        return super().complete(request)
 
 
 @contextmanager

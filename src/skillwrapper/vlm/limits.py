@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from skillwrapper.errors import ConfigurationError, LimitReachedError, UnusableReplyError
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
+from skillwrapper.vlm.wrapping import ModelWrapper
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class CallBudget:
             self._cost += usage.cost or 0.0
 
 
-class LimitedModel:
+class LimitedModel(ModelWrapper):
     """A model that is not asked any more once a limit is reached.
 
     Args:
@@ -88,17 +89,8 @@ class LimitedModel:
     """
 
     def __init__(self, model: VisionLanguageModel, budget: CallBudget) -> None:
-        self._model, self._budget = model, budget
-
-    @property
-    def name(self) -> str:
-        """The name of the model behind."""
-        return self._model.name
-
-    @property
-    def parameters(self) -> Mapping[str, str | int | float | bool]:
-        """The parameters of the model behind."""
-        return self._model.parameters
+        super().__init__(model)
+        self._budget = budget
 
     def complete(self, request: ModelRequest) -> ModelReply:
         """Ask, if that is within the limits.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from skillwrapper.errors import (
@@ -13,7 +13,8 @@ from skillwrapper.errors import (
     TemporaryProviderError,
     UnusableReplyError,
 )
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, TakesBack, VisionLanguageModel
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
+from skillwrapper.vlm.wrapping import ModelWrapper
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class RetryPolicy:
         return grown * (0.5 + 0.5 * jitter)
 
 
-class RetryingModel:
+class RetryingModel(ModelWrapper):
     """Repeats calls that fail in passing.
 
     Args:
@@ -68,17 +69,8 @@ class RetryingModel:
         policy: RetryPolicy | None = None,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        self._model, self._policy, self._sleep = model, policy or RetryPolicy(), sleep
-
-    @property
-    def name(self) -> str:
-        """The name of the model behind."""
-        return self._model.name
-
-    @property
-    def parameters(self) -> Mapping[str, str | int | float | bool]:
-        """The parameters of the model behind."""
-        return self._model.parameters
+        super().__init__(model)
+        self._policy, self._sleep = policy or RetryPolicy(), sleep
 
     def complete(self, request: ModelRequest) -> ModelReply:
         """Ask until there is a reply.
@@ -99,11 +91,6 @@ class RetryingModel:
                     ) from error
                 self._sleep(self._policy.wait(attempt, error.retry_after, jitter.random()))
         raise ModelUnavailableError(f"{self.name}: no attempt was made")
-
-    def take_back(self, request: ModelRequest) -> None:
-        """Pass on that a reply was of no use."""
-        if isinstance(self._model, TakesBack):
-            self._model.take_back(request)
 
 
 def _advice(error: TemporaryProviderError) -> str:

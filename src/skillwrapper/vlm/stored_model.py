@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -12,9 +12,10 @@ from skillwrapper.errors import UnusableReplyError
 from skillwrapper.vlm.call_key import call_key, question_key
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
 from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
+from skillwrapper.vlm.wrapping import ModelWrapper
 
 
-class StoredModel:
+class StoredModel(ModelWrapper):
     """Keeps every call of a model in a run's store, and serves from it.
 
     Args:
@@ -31,19 +32,10 @@ class StoredModel:
         shared: CallStore | None = None,
         iteration: Callable[[], int | None] = lambda: None,
     ) -> None:
-        self._model, self._store, self._shared = model, store, shared
+        super().__init__(model)
+        self._store, self._shared = store, shared
         self._iteration = iteration
         self._asking = _KeyedLocks()
-
-    @property
-    def name(self) -> str:
-        """The name of the model behind."""
-        return self._model.name
-
-    @property
-    def parameters(self) -> Mapping[str, str | int | float | bool]:
-        """The parameters of the model behind."""
-        return self._model.parameters
 
     def complete(self, request: ModelRequest) -> ModelReply:
         """Serve what is known, or ask and record.

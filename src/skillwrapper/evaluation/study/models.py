@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,6 +17,7 @@ from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.settings import AssistantSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_model import StoredModel
+from skillwrapper.vlm.wrapping import ModelWrapper
 
 _REPETITIONS_A_RUN = 1000
 """More than a question is ever repeated in one run."""
@@ -51,23 +52,21 @@ class StudiedModel:
         return f"{self.name}, noise {self.noise}" if self.is_embedded else self.name
 
 
-class _Repeated:
+class _Repeated(ModelWrapper):
     """A model that is asked everything once more, in a run of its own."""
 
     def __init__(self, model: VisionLanguageModel, run: int) -> None:
-        self._model, self._run = model, run
-
-    @property
-    def name(self) -> str:
-        return self._model.name
-
-    @property
-    def parameters(self) -> Mapping[str, str | int | float | bool]:
-        return self._model.parameters
+        super().__init__(model)
+        self._shift = run * _REPETITIONS_A_RUN
 
     def complete(self, request: ModelRequest) -> ModelReply:
-        shift = self._run * _REPETITIONS_A_RUN
-        return self._model.complete(replace(request, repetition=request.repetition + shift))
+        return super().complete(self._shifted(request))
+
+    def take_back(self, request: ModelRequest) -> None:
+        super().take_back(self._shifted(request))
+
+    def _shifted(self, request: ModelRequest) -> ModelRequest:
+        return replace(request, repetition=request.repetition + self._shift)
 
 
 @contextmanager
