@@ -9,6 +9,7 @@ import socket
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from datetime import date
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 from threading import Thread
@@ -30,7 +31,7 @@ from skillwrapper.errors import (
 )
 from skillwrapper.vlm.openai_model import OpenAIModel, OpenAISettings
 from skillwrapper.vlm.pictures import PictureEncoder, scaled_down
-from skillwrapper.vlm.prices import list_price
+from skillwrapper.vlm.prices import LIST_PRICES, list_price
 from skillwrapper.vlm.protocol import ModelRequest, Role
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
 from skillwrapper.vlm.server import BLIND, SEEING, ServerSettings, VlmServer
@@ -89,7 +90,7 @@ def test_usage_is_told_and_the_price_of_an_own_endpoint_is_unknown() -> None:
     assert reply.usage.seconds > 0
 
 
-def test_list_prices() -> None:
+def test_list_prices(monkeypatch: pytest.MonkeyPatch) -> None:
     price = list_price("gpt-5-2025-08-07", None)
     assert price is not None
     assert price == list_price("openai/gpt-5", "https://openrouter.ai/api/v1")
@@ -98,6 +99,15 @@ def test_list_prices() -> None:
     assert list_price("gpt-5", "http://localhost:8000/v1") is None
     assert list_price("gpt-5", "https://notopenai.com/v1") is None
     assert list_price("brand-new", None) is None
+    assert list_price("gemini-2.5-flash-preview", "https://googleapis.com/v1") is None
+    monkeypatch.setenv("OPENAI_BASE_URL", "http://localhost:8000/v1")
+    assert list_price("gpt-5", None) is None
+
+
+def test_every_list_price_was_checked_on_a_day() -> None:
+    for price in LIST_PRICES.values():
+        assert date.fromisoformat(price.checked) > date(2025, 1, 1)
+        assert 0 < price.input < price.output
 
 
 def faulty(kind: Fault, **settings: Any) -> Any:
