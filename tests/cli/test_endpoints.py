@@ -24,7 +24,8 @@ from skillwrapper.vlm.retrying import RetryPolicy
 from skillwrapper.vlm.server import ServerSettings, VlmServer
 from skillwrapper.vlm.server_faults import Fault, FaultPlan
 from skillwrapper.vlm.settings import AssistantSettings
-from skillwrapper.vlm.store import CallStatus, CallStore
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus
 
 KEY = "sk-planted-0815-secret"
 FAST = Spending(policy=RetryPolicy(first_wait=0.002, longest_wait=0.01))

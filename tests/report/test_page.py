@@ -11,7 +11,8 @@ from skillwrapper.run.config import RunConfig
 from skillwrapper.run.folder import RunFolder
 from skillwrapper.run.learned import LearnedRun
 from skillwrapper.vlm.protocol import Role, Usage
-from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus, StoredCall
 
 
 @pytest.fixture(scope="module")

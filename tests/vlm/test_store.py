@@ -29,7 +29,8 @@ from skillwrapper.vlm.limits import CallBudget, CallLimits, LimitedModel
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, Usage
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
-from skillwrapper.vlm.store import CallStatus, CallStore
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus
 from skillwrapper.vlm.stored_model import StoredModel
 from skillwrapper.world import Picture
 
@@ -135,17 +136,40 @@ def test_refused_and_empty_replies_are_recorded_but_never_served(
     assert next(store.calls()).usage.cost == 0.1
 
 
-def test_a_reply_that_was_taken_back_is_kept_but_not_served(
+def test_a_reply_that_was_taken_back_is_met_again_but_never_as_an_answer(
     store: CallStore, tmp_path: Path
 ) -> None:
     with CallStore(tmp_path / "shared.sqlite") as shared:
         behind = ScriptedModel(lambda _: f"reply {len(behind.requests)}")
         model = StoredModel(behind, store, shared)
-        model.complete(request())
+        assert not model.complete(request()).taken_back
         model.take_back(request())
-        assert model.complete(request()).text == "reply 2"
-    statuses = [(call.reply, call.status) for call in store.calls()]
+        again = model.complete(request())
+        with CallStore(tmp_path / "other.sqlite") as fresh:
+            elsewhere = StoredModel(behind, fresh, shared).complete(request())
+            (copied,) = fresh.calls()
+    for reply in (again, elsewhere):
+        assert (reply.text, reply.taken_back, reply.usage.cost) == ("reply 1", True, 0)
+    assert [(call.reply, call.status) for call in store.calls()] == [
+        ("reply 1", CallStatus.UNUSABLE)
+    ]
+    assert (copied.status, copied.shared) == (CallStatus.UNUSABLE, True)
+    assert len(behind.requests) == 1
+
+
+def test_taking_a_reply_back_leaves_what_others_heard(store: CallStore, tmp_path: Path) -> None:
+    with CallStore(tmp_path / "shared.sqlite") as shared, CallStore(tmp_path / "b.sqlite") as other:
+        behind = ScriptedModel(lambda _: f"reply {len(behind.requests)}")
+        mine, theirs = StoredModel(behind, store, shared), StoredModel(behind, other)
+        mine.complete(request())
+        theirs.complete(request())
+        shared.add(next(other.calls()))
+        mine.take_back(request())
+        statuses = [(call.reply, call.status) for call in shared.calls()]
+        found = shared.find(next(other.calls()).key)
     assert statuses == [("reply 1", CallStatus.UNUSABLE), ("reply 2", CallStatus.ANSWERED)]
+    assert found is not None
+    assert found.reply == "reply 2"
 
 
 def test_a_shared_store_spares_other_runs_the_call(tmp_path: Path) -> None:
@@ -223,29 +247,27 @@ class Echo:
 model = StoredModel(Echo(), CallStore(Path(sys.argv[1])))
 for number in range(10**9):
     model.complete(ModelRequest(Role.ACT, "", str(number)))
-    if number % 100 == 0:
-        print(number, flush=True)
+    print(number, flush=True)
 """
 
 
-def test_a_killed_process_loses_at_most_a_moment(tmp_path: Path) -> None:
+def test_a_killed_process_loses_no_reply(tmp_path: Path) -> None:
     path = tmp_path / "calls.sqlite"
     process = subprocess.Popen(
         [sys.executable, "-c", _WRITER, str(path)], stdout=subprocess.PIPE, text=True
     )
     assert process.stdout is not None
-    began = float("inf")
     for line in process.stdout:
-        began = min(began, time.monotonic())
-        if time.monotonic() - began > 0.5 and int(line) > 300:
+        used = int(line)
+        if used > 300:
             break
     os.kill(process.pid, signal.SIGKILL)
     process.stdout.close()
     process.wait()
     with CallStore(path) as store:
         kept = [int(call.prompt) for call in store.calls()]
-    assert len(kept) > 100
     assert kept == list(range(len(kept)))
+    assert len(kept) > used
 
 
 @pytest.mark.parametrize("damage", ["text", "header", "middle"])

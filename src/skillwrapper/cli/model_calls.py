@@ -20,7 +20,8 @@ from skillwrapper.vlm.embedded import EmbeddedModel
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.server import ServerSettings, VlmServer
 from skillwrapper.vlm.server_faults import FaultPlan
-from skillwrapper.vlm.store import CallStatus, CallStore, CallTotals, StoredCall
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus, CallTotals, StoredCall
 
 
 def register(app: typer.Typer) -> None:

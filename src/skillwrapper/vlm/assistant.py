@@ -114,19 +114,30 @@ class Assistant:
         usable: Callable[[Parsed], bool],
     ) -> Parsed:
         """The first usable reading of a reply, or the last one if none is."""
-        asked = request
-        parsed = parse(self._models.complete(asked).text)
+        parsed, good = self._try(request, parse, usable)
         for time in range(1, 1 + self._settings.unusable_reasks):
-            if usable(parsed):
-                return parsed
-            self._models.take_back(asked)
+            if good:
+                break
             problem = parsed.unusable[0] if parsed.unusable else "it holds nothing usable"
             again = self._requests.again(request, problem, time)
-            asked = replace(again, repetition=time)
-            parsed = parse(self._models.complete(asked).text)
-        if not usable(parsed):
-            self._models.take_back(asked)
+            parsed, good = self._try(replace(again, repetition=time), parse, usable)
         return parsed
+
+    def _try(
+        self,
+        request: ModelRequest,
+        parse: Callable[[str], Parsed],
+        usable: Callable[[Parsed], bool],
+    ) -> tuple[Parsed, bool]:
+        """The reading of one reply, and whether it is of use; if not, the reply is taken back."""
+        reply = self._models.complete(request)
+        parsed = parse(reply.text)
+        if not usable(parsed):
+            self._models.take_back(request)
+            return parsed, False
+        if reply.taken_back:  # another version of the parser could not read it
+            return parse(""), False
+        return parsed, True
 
 
 def _parameter_names(slots: Iterable[Slot], aliases: Mapping[str, str]) -> ParameterNames:

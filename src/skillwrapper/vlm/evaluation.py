@@ -79,16 +79,18 @@ class Evaluator:
         repetition = task.vote * self._settings.most_repetitions + time
         judging = self._again(self._requests.evaluation(task.question, atoms), problem, time)
         judging = replace(judging, repetition=repetition)
-        free = self._models.complete(judging).text
-        if not _speaks_of_scene(free, task.question):
+        free = self._models.complete(judging)
+        if free.taken_back or not _speaks_of_scene(free.text, task.question):
             self._models.take_back(judging)
             return {}
-        summing = self._again(self._requests.summary(task.question, atoms, free), problem, time)
-        summing = replace(summing, repetition=repetition)
-        parsed = parse_labels(self._models.complete(summing).text, atoms)
-        if not parsed.labels:
+        summing = self._requests.summary(task.question, atoms, free.text)
+        summing = replace(self._again(summing, problem, time), repetition=repetition)
+        summary = self._models.complete(summing)
+        parsed = parse_labels(summary.text, atoms)
+        if summary.taken_back or not parsed.labels:
             self._models.take_back(judging)
             self._models.take_back(summing)
+            return {}
         return parsed.labels
 
     def _again(self, request: ModelRequest, problem: str, time: int) -> ModelRequest:

@@ -63,10 +63,13 @@ class ModelReply:
     Attributes:
         text: the reply, not empty.
         usage: what it took.
+        taken_back: whether the reply was of no use when it came. It then tells how a question
+            went, so that it is asked again in the same way, and must not be taken for an answer.
     """
 
     text: str
     usage: Usage = field(default_factory=Usage)
+    taken_back: bool = False
 
 
 class VisionLanguageModel(Protocol):
@@ -96,5 +99,5 @@ class TakesBack(Protocol):
     """A model that keeps replies, and can be told that one of them was of no use."""
 
     def take_back(self, request: ModelRequest) -> None:
-        """Do not serve the reply to a request again."""
+        """Do not serve the reply to a request as an answer again."""
         ...

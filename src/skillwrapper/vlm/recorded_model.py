@@ -9,6 +9,7 @@ from skillwrapper.errors import RecordingError
 from skillwrapper.vlm.call_key import question_key
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest
 from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus
 
 _FILE = "calls.sqlite"
 
@@ -40,20 +41,19 @@ class RecordedModel:
     def complete(self, request: ModelRequest) -> ModelReply:
         """The recorded reply.
 
-        One that could not be read then cannot be read now, and makes who asks ask again, as then.
+        One that was of no use then is marked, and makes who asks ask again, as then.
 
         Raises:
             RecordingError: if the question was not answered in the recorded run.
         """
-        key = question_key(request)
-        call = self._store.find_question(key) or self._store.find_unusable(key)
+        call = self._store.find_question(question_key(request))
         if call is None:
             raise RecordingError(
                 f"{self._folder}: this question of the role '{request.role}' has no usable answer "
                 f"in the recorded run: '{_first_line(request.prompt)}'; run with the "
                 "configuration and the prompts of the recording, or with another model"
             )
-        return ModelReply(call.reply, call.usage)
+        return ModelReply(call.reply, call.usage, call.status is CallStatus.UNUSABLE)
 
     def close(self) -> None:
         """Close the recording."""

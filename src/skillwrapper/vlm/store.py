@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-import json
 import sqlite3
 import threading
 import time
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
 from skillwrapper.errors import RunFolderError
-from skillwrapper.vlm.protocol import Role, Usage
+from skillwrapper.vlm.protocol import Role
+from skillwrapper.vlm.stored_call import (
+    COLUMNS,
+    CallStatus,
+    CallTotals,
+    StoredCall,
+    call_of,
+    join_totals,
+    row_of,
+)
 
 _APPLICATION_ID = 0x736B6C77  # "sklw": tells our files from other SQLite databases
 _FORMAT = 1
-_COMMIT_EVERY = 0.2
-"""Seconds; what was answered since the last commit is lost in a crash, and asked again."""
+_COUNT_EVERY = 0.2
+"""Seconds; how often questions were served since then is lost in a crash."""
 _LARGEST_CHECKED = 256 * 1024 * 1024
 
 _SCHEMA = """
@@ -52,91 +59,16 @@ CREATE TABLE IF NOT EXISTS served (
     times INTEGER NOT NULL
 );
 """
-_COLUMNS = (
-    "key, question, status, shared, role, iteration, model, parameters, repetition, system,"
-    " prompt, pictures, reply, input_tokens, output_tokens, cost, seconds"
-)
-_INSERT = f"INSERT INTO calls ({_COLUMNS}) VALUES ({', '.join('?' * 17)})"
-
-
-class CallStatus(StrEnum):
-    """What became of a call; only what is answered is ever served again."""
-
-    ANSWERED = "answered"
-    REFUSED = "refused"
-    EMPTY = "empty"
-    UNUSABLE = "unusable"
-
-
-@dataclass(frozen=True)
-class StoredCall:
-    """One call as it is kept.
-
-    Attributes:
-        key: identity of the call, model and settings included.
-        question: identity of what was asked, whichever model was asked.
-        status: what became of it.
-        role: what it was for.
-        iteration: of the run; None outside of the iterations.
-        model: provider and model.
-        parameters: settings of the model, as JSON.
-        repetition: number of the repetition.
-        system: system prompt.
-        prompt: user prompt.
-        pictures: SHA-256 of the pictures, in their order.
-        reply: the text of the reply, may be empty.
-        usage: what the call took.
-        shared: whether the reply came from the store that several runs share.
-    """
-
-    key: str
-    question: str
-    status: CallStatus
-    role: Role
-    iteration: int | None
-    model: str
-    parameters: str
-    repetition: int
-    system: str
-    prompt: str
-    pictures: tuple[str, ...]
-    reply: str
-    usage: Usage
-    shared: bool = False
-
-
-@dataclass(frozen=True)
-class CallTotals:
-    """What the calls of one role took in one iteration.
-
-    Attributes:
-        role: what the calls were for.
-        iteration: of the run; None outside of the iterations.
-        made: calls that a model was asked.
-        served: questions that were answered from a store instead.
-        failed: calls that were made and brought nothing usable.
-        input_tokens: of all calls made; None if any is unknown.
-        output_tokens: of all calls made; None if any is unknown.
-        cost: in US dollars, of all calls made; None if any is unknown.
-        seconds: added up over all calls made.
-    """
-
-    role: Role
-    iteration: int | None
-    made: int = 0
-    served: int = 0
-    failed: int = 0
-    input_tokens: int | None = 0
-    output_tokens: int | None = 0
-    cost: float | None = 0.0
-    seconds: float = 0.0
+_INSERT = f"INSERT INTO calls ({COLUMNS}) VALUES ({', '.join('?' * 17)})"
+_INSERT_SERVED = "INSERT INTO served (role, iteration, times) VALUES (?, ?, ?)"
 
 
 class CallStore:
     """Keeps model calls in an SQLite file. Safe to use from several threads and processes.
 
-    New calls are gathered for a moment and written together; between writes the file is not
-    locked. Use it as a context manager, or close it.
+    A call is in the file before its reply is used, so that a run that is killed and resumed meets
+    the same replies; how often questions were served is only written now and then. Use it as a
+    context manager, or close it.
 
     Args:
         path: the file; made if it does not exist.
@@ -150,9 +82,8 @@ class CallStore:
         self.path = path
         self._read_only = read_only
         self._lock = threading.RLock()
-        self._pending: list[StoredCall] = []
-        self._pending_served: list[tuple[Role, int | None]] = []
-        self._last_commit = time.monotonic()
+        self._served: Counter[tuple[Role, int | None]] = Counter()
+        self._last_count = time.monotonic()
         self._connection = self._open()
 
     def __enter__(self) -> Self:
@@ -167,38 +98,35 @@ class CallStore:
         self.close()
 
     def find(self, key: str) -> StoredCall | None:
-        """The first answered call with a key; None if there is none."""
+        """What became of a call: its first answer, or else its first unusable reply.
+
+        None if neither is there; refused and empty replies are asked for again.
+        """
         return self._find("key", key)
 
     def find_question(self, question: str) -> StoredCall | None:
-        """The first answered call with a question, whichever model was asked."""
+        """The same for a question, whichever model was asked."""
         return self._find("question", question)
-
-    def find_unusable(self, question: str) -> StoredCall | None:
-        """The first reply to a question that could not be read; for replays, never an answer."""
-        return self._find("question", question, CallStatus.UNUSABLE)
 
     def add(self, call: StoredCall) -> None:
         """Keep a call."""
-        with self._lock:
-            self._pending.append(call)
-            self._commit_if_due()
+        with self._guarded() as connection, connection:
+            connection.execute(_INSERT, row_of(call))
 
     def count_served(self, role: Role, iteration: int | None) -> None:
         """Note that a question was answered from a store."""
         with self._lock:
-            self._pending_served.append((role, iteration))
-            self._commit_if_due()
+            self._served[role, iteration] += 1
+            if time.monotonic() - self._last_count >= _COUNT_EVERY:
+                self.flush()
 
-    def mark_unusable(self, key: str) -> None:
-        """Never serve the replies to a call again; they are kept."""
-        with self._guarded() as connection:
-            self.flush()
+    def mark_unusable(self, key: str, reply: str) -> None:
+        """Never serve a reply to a call as an answer; it is kept."""
+        with self._guarded() as connection, connection:
             connection.execute(
-                "UPDATE calls SET status = ? WHERE key = ? AND status = ?",
-                (CallStatus.UNUSABLE, key, CallStatus.ANSWERED),
+                "UPDATE calls SET status = ? WHERE key = ? AND status = ? AND reply = ?",
+                (CallStatus.UNUSABLE, key, CallStatus.ANSWERED, reply),
             )
-            connection.commit()
 
     def calls(
         self,
@@ -212,12 +140,11 @@ class CallStore:
         chosen = {name: value for name, value in wanted.items() if value is not None}
         condition = " AND ".join(f"{name} = ?" for name in chosen) or "1"
         with self._guarded() as connection:
-            self.flush()
             rows = connection.execute(
-                f"SELECT {_COLUMNS} FROM calls WHERE {condition} ORDER BY number",
+                f"SELECT {COLUMNS} FROM calls WHERE {condition} ORDER BY number",
                 tuple(chosen.values()),
             ).fetchall()
-        return map(_call_of, rows)
+        return map(call_of, rows)
 
     def totals(self) -> tuple[CallTotals, ...]:
         """What the calls took, by iteration and role."""
@@ -227,47 +154,34 @@ class CallStore:
             served = connection.execute(
                 "SELECT role, iteration, SUM(times) FROM served GROUP BY role, iteration"
             ).fetchall()
-        return _join_totals(made, served)
+        return join_totals(made, served)
 
     def flush(self) -> None:
         """Write what was gathered."""
         with self._guarded() as connection:
-            if not (self._pending or self._pending_served):
+            if not self._served:
                 return
-            connection.executemany(_INSERT, map(_row_of, self._pending))
-            connection.executemany(
-                "INSERT INTO served (role, iteration, times) VALUES (?, ?, 1)",
-                self._pending_served,
-            )
-            connection.commit()
-            self._pending.clear()
-            self._pending_served.clear()
-            self._last_commit = time.monotonic()
+            rows = [(role, iteration, times) for (role, iteration), times in self._served.items()]
+            with connection:
+                connection.executemany(_INSERT_SERVED, rows)
+            self._served.clear()
+            self._last_count = time.monotonic()
 
     def close(self) -> None:
         """Write what was gathered and close the file; may be called twice."""
         with self._lock:
-            if not self._read_only and (self._pending or self._pending_served):
+            if self._served:
                 self.flush()
             self._connection.close()
 
-    def _find(
-        self, column: str, value: str, status: CallStatus = CallStatus.ANSWERED
-    ) -> StoredCall | None:
+    def _find(self, column: str, value: str) -> StoredCall | None:
         with self._guarded() as connection:
-            for call in self._pending:
-                if getattr(call, column) == value and call.status is status:
-                    return call
             row = connection.execute(
-                f"SELECT {_COLUMNS} FROM calls WHERE {column} = ? AND status = ?"
-                " ORDER BY number LIMIT 1",
-                (value, status),
+                f"SELECT {COLUMNS} FROM calls WHERE {column} = ? AND status IN (?, ?)"
+                " ORDER BY status = ?, number LIMIT 1",
+                (value, CallStatus.ANSWERED, CallStatus.UNUSABLE, CallStatus.UNUSABLE),
             ).fetchone()
-        return _call_of(row) if row else None
-
-    def _commit_if_due(self) -> None:
-        if time.monotonic() - self._last_commit >= _COMMIT_EVERY:
-            self.flush()
+        return call_of(row) if row else None
 
     def _open(self) -> sqlite3.Connection:
         if self._read_only and not self.path.is_file():
@@ -337,61 +251,5 @@ FROM calls WHERE NOT shared GROUP BY role, iteration
 """
 
 
-def _join_totals(made: list[Any], served: list[Any]) -> tuple[CallTotals, ...]:
-    totals: dict[tuple[str, int | None], CallTotals] = {}
-    for role, iteration, calls, failed, tokens_in, tokens_out, cost, seconds in made:
-        totals[role, iteration] = CallTotals(
-            Role(role), iteration, calls, 0, failed, tokens_in, tokens_out, cost, seconds
-        )
-    for role, iteration, times in served:
-        known = totals.get((role, iteration), CallTotals(Role(role), iteration))
-        totals[role, iteration] = replace(known, served=times)
-    roles = list(Role)
-    return tuple(sorted(totals.values(), key=lambda t: (t.iteration or 0, roles.index(t.role))))
-
-
 def _one_line(error: Exception) -> str:
     return " ".join(str(error).split())
-
-
-def _row_of(call: StoredCall) -> tuple[Any, ...]:
-    return (
-        call.key,
-        call.question,
-        call.status,
-        call.shared,
-        call.role,
-        call.iteration,
-        call.model,
-        call.parameters,
-        call.repetition,
-        call.system,
-        call.prompt,
-        json.dumps(call.pictures),
-        call.reply,
-        call.usage.input_tokens,
-        call.usage.output_tokens,
-        call.usage.cost,
-        call.usage.seconds,
-    )
-
-
-def _call_of(row: tuple[Any, ...]) -> StoredCall:
-    key, question, status, shared, role, iteration, model, parameters, repetition = row[:9]
-    system, prompt, pictures, reply, tokens_in, tokens_out, cost, seconds = row[9:]
-    return StoredCall(
-        key=key,
-        question=question,
-        status=CallStatus(status),
-        role=Role(role),
-        iteration=iteration,
-        model=model,
-        parameters=parameters,
-        repetition=repetition,
-        system=system,
-        prompt=prompt,
-        pictures=tuple(json.loads(pictures)),
-        reply=reply,
-        usage=Usage(tokens_in, tokens_out, cost, seconds),
-        shared=bool(shared),
-    )

@@ -11,7 +11,8 @@ from dataclasses import replace
 from skillwrapper.errors import UnusableReplyError
 from skillwrapper.vlm.call_key import call_key, question_key
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
-from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus, StoredCall
 from skillwrapper.vlm.wrapping import ModelWrapper
 
 
@@ -40,6 +41,9 @@ class StoredModel(ModelWrapper):
     def complete(self, request: ModelRequest) -> ModelReply:
         """Serve what is known, or ask and record.
 
+        A reply that was taken back is met again, marked as such: whoever asked again then does
+        so now, and comes to the same answer without asking the model.
+
         Raises:
             ProviderError: as the model behind does; refused and empty replies are recorded.
             RunFolderError: if a store cannot be used.
@@ -51,9 +55,12 @@ class StoredModel(ModelWrapper):
     def take_back(self, request: ModelRequest) -> None:
         """Record that the reply to a request was of no use."""
         key = self._key(request)
-        self._store.mark_unusable(key)
+        known = self._store.find(key)
+        if known is None or known.status is CallStatus.UNUSABLE:
+            return
+        self._store.mark_unusable(key, known.reply)
         if self._shared is not None:
-            self._shared.mark_unusable(key)
+            self._shared.mark_unusable(key, known.reply)
 
     def _served(self, key: str, request: ModelRequest) -> ModelReply | None:
         known = self._store.find(key)
@@ -64,7 +71,8 @@ class StoredModel(ModelWrapper):
         if known is None:
             return None
         self._store.count_served(request.role, self._iteration())
-        return ModelReply(known.reply, replace(known.usage, cost=0.0, seconds=0.0))
+        usage = replace(known.usage, cost=0.0, seconds=0.0)
+        return ModelReply(known.reply, usage, known.status is CallStatus.UNUSABLE)
 
     def _asked(self, key: str, request: ModelRequest) -> ModelReply:
         try:

@@ -1,0 +1,151 @@
+"""What the call store keeps of every call, and what it adds up."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+from skillwrapper.vlm.protocol import Role, Usage
+
+COLUMNS = (
+    "key, question, status, shared, role, iteration, model, parameters, repetition, system,"
+    " prompt, pictures, reply, input_tokens, output_tokens, cost, seconds"
+)
+"""The columns of a call, in the order of its row."""
+
+
+class CallStatus(StrEnum):
+    """What became of a call; only what is answered is ever served again."""
+
+    ANSWERED = "answered"
+    REFUSED = "refused"
+    EMPTY = "empty"
+    UNUSABLE = "unusable"
+
+
+@dataclass(frozen=True)
+class StoredCall:
+    """One call as it is kept.
+
+    Attributes:
+        key: identity of the call, model and settings included.
+        question: identity of what was asked, whichever model was asked.
+        status: what became of it.
+        role: what it was for.
+        iteration: of the run; None outside of the iterations.
+        model: provider and model.
+        parameters: settings of the model, as JSON.
+        repetition: number of the repetition.
+        system: system prompt.
+        prompt: user prompt.
+        pictures: SHA-256 of the pictures, in their order.
+        reply: the text of the reply, may be empty.
+        usage: what the call took.
+        shared: whether the reply came from the store that several runs share.
+    """
+
+    key: str
+    question: str
+    status: CallStatus
+    role: Role
+    iteration: int | None
+    model: str
+    parameters: str
+    repetition: int
+    system: str
+    prompt: str
+    pictures: tuple[str, ...]
+    reply: str
+    usage: Usage
+    shared: bool = False
+
+
+@dataclass(frozen=True)
+class CallTotals:
+    """What the calls of one role took in one iteration.
+
+    Attributes:
+        role: what the calls were for.
+        iteration: of the run; None outside of the iterations.
+        made: calls that a model was asked.
+        served: questions that were answered from a store instead.
+        failed: calls that were made and brought nothing usable.
+        input_tokens: of all calls made; None if any is unknown.
+        output_tokens: of all calls made; None if any is unknown.
+        cost: in US dollars, of all calls made; None if any is unknown.
+        seconds: added up over all calls made.
+    """
+
+    role: Role
+    iteration: int | None
+    made: int = 0
+    served: int = 0
+    failed: int = 0
+    input_tokens: int | None = 0
+    output_tokens: int | None = 0
+    cost: float | None = 0.0
+    seconds: float = 0.0
+
+
+def row_of(call: StoredCall) -> tuple[Any, ...]:
+    """A call as the store writes it."""
+    return (
+        call.key,
+        call.question,
+        call.status,
+        call.shared,
+        call.role,
+        call.iteration,
+        call.model,
+        call.parameters,
+        call.repetition,
+        call.system,
+        call.prompt,
+        json.dumps(call.pictures),
+        call.reply,
+        call.usage.input_tokens,
+        call.usage.output_tokens,
+        call.usage.cost,
+        call.usage.seconds,
+    )
+
+
+def call_of(row: Sequence[Any]) -> StoredCall:
+    """A call from its row."""
+    key, question, status, shared, role, iteration, model, parameters, repetition = row[:9]
+    system, prompt, pictures, reply, tokens_in, tokens_out, cost, seconds = row[9:]
+    return StoredCall(
+        key=key,
+        question=question,
+        status=CallStatus(status),
+        role=Role(role),
+        iteration=iteration,
+        model=model,
+        parameters=parameters,
+        repetition=repetition,
+        system=system,
+        prompt=prompt,
+        pictures=tuple(json.loads(pictures)),
+        reply=reply,
+        usage=Usage(tokens_in, tokens_out, cost, seconds),
+        shared=bool(shared),
+    )
+
+
+def join_totals(
+    made: Iterable[Sequence[Any]], served: Iterable[Sequence[Any]]
+) -> tuple[CallTotals, ...]:
+    """Totals by iteration and role, from what was added up of calls made and of calls served."""
+    totals: dict[tuple[str, int | None], CallTotals] = {}
+    for role, iteration, calls, failed, tokens_in, tokens_out, cost, seconds in made:
+        totals[role, iteration] = CallTotals(
+            Role(role), iteration, calls, 0, failed, tokens_in, tokens_out, cost, seconds
+        )
+    for role, iteration, times in served:
+        known = totals.get((role, iteration), CallTotals(Role(role), iteration))
+        totals[role, iteration] = replace(known, served=times)
+    roles = list(Role)
+    return tuple(sorted(totals.values(), key=lambda t: (t.iteration or 0, roles.index(t.role))))

@@ -1,0 +1,142 @@
+"""Runs that are stopped or killed and go on: they meet the same replies, and end the same."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from skillwrapper.errors import LimitReachedError
+from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.run.assistants import Spending
+from skillwrapper.run.config import ModelSettings, RunConfig
+from skillwrapper.run.learn import learn
+from skillwrapper.vlm.embedded import EmbeddedModel
+from skillwrapper.vlm.limits import CallLimits
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest
+from skillwrapper.vlm.retrying import RetryPolicy
+from skillwrapper.vlm.server import ServerSettings, VlmServer
+from skillwrapper.vlm.server_faults import Fault, FaultPlan
+from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallStatus
+from skillwrapper.vlm.wrapping import ModelWrapper
+
+FAST = Spending(policy=RetryPolicy(first_wait=0.002, longest_wait=0.01))
+FAULTS = FaultPlan(
+    rate=0.3, kinds=(*Fault, *[Fault.NONSENSE] * 4), seed=2, retry_after=0.01, slowness=0.01
+)
+
+
+class MoodyModel(ModelWrapper):
+    """Answers otherwise each time it is asked, and sometimes says nothing of use."""
+
+    def __init__(self) -> None:
+        super().__init__(EmbeddedModel())
+        self.asked = 0
+        self._lock = threading.Lock()
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        with self._lock:
+            self.asked += 1
+            number = self.asked
+        if hashlib.sha256(str(number).encode()).digest()[0] < 50:
+            return ModelReply(f"I had rather not say, for the time being ({number}).")
+        return EmbeddedModel(number).complete(request)
+
+
+@pytest.fixture(autouse=True)
+def _environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("OPENAI_BASE_URL", "OPENAI_API_KEY", "HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY"):
+        monkeypatch.delenv(name, raising=False)
+        monkeypatch.delenv(name.lower(), raising=False)
+
+
+def config(url: str | None = None) -> RunConfig:
+    how = AssistantSettings(parallel=4)
+    model = ModelSettings(name="openai:embedded", base_url=url, assistant=how)
+    return RunConfig(
+        domain="burger",
+        seed=1,
+        iterations=2,
+        exploration=ExplorationSettings(budget=5),
+        model=model if url else ModelSettings(),
+    )
+
+
+def model_of(run: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted((run / "model").iterdir())}
+
+
+def replies_by_key(run: Path) -> Counter[str]:
+    """How many replies each question has, refused and empty ones left out."""
+    with CallStore(run / "calls.sqlite", read_only=True) as store:
+        kept = {CallStatus.ANSWERED, CallStatus.UNUSABLE}
+        return Counter(call.key for call in store.calls() if call.status in kept)
+
+
+def test_a_resumed_run_goes_the_way_it_went_whatever_the_model_would_say_now(
+    tmp_path: Path,
+) -> None:
+    model = MoodyModel()
+    shared = tmp_path / "shared.sqlite"
+    run = tmp_path / "run"
+    with VlmServer(model) as server:
+        sessions = 0
+        for calls in (4, 12, 12, None):
+            spending = replace(FAST, limits=CallLimits(calls=calls), shared=shared)
+            try:
+                learn(config(server.url), run, None, spending)
+            except LimitReachedError:
+                sessions += 1
+        assert sessions == 3
+        found, asked = model_of(run), model.asked
+        with CallStore(run / "calls.sqlite", read_only=True) as store:
+            assert any(store.calls(status=CallStatus.UNUSABLE))
+        assert set(replies_by_key(run).values()) == {1}
+        assert sum(replies_by_key(run).values()) == asked
+
+        learn(config(server.url), run, None, FAST)
+        learn(config(server.url), tmp_path / "again", None, replace(FAST, shared=shared))
+        assert model.asked == asked
+    recording = ModelSettings(name=f"recorded:{run}")
+    learn(config().model_copy(update={"model": recording}), tmp_path / "replay")
+    for other in (run, tmp_path / "again", tmp_path / "replay"):
+        assert model_of(other) == found
+
+
+_LEARNER = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from test_resuming import FAST, config
+from skillwrapper.run.learn import learn
+learn(config(sys.argv[2]), Path(sys.argv[3]), None, FAST)
+"""
+
+
+def test_a_run_that_is_killed_among_faults_ends_as_if_nothing_had_been(tmp_path: Path) -> None:
+    learn(config(), tmp_path / "direct")
+    run = tmp_path / "run"
+    with VlmServer(EmbeddedModel(1), ServerSettings(faults=FAULTS)) as server:
+        command = [sys.executable, "-c", _LEARNER, str(Path(__file__).parent), server.url, str(run)]
+        process = subprocess.Popen(command)
+        try:
+            while server.calls < 30 and process.poll() is None:
+                time.sleep(0.001)
+        finally:
+            os.kill(process.pid, signal.SIGKILL)
+            assert process.wait() == -signal.SIGKILL
+        assert not (run / "model").exists()
+        learn(config(server.url), run, None, FAST)
+    assert model_of(run) == model_of(tmp_path / "direct")
+    assert set(replies_by_key(run).values()) == {1}
