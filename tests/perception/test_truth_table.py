@@ -90,6 +90,59 @@ def test_only_what_is_missing() -> None:
     assert asked(reader.waves[2]) == [("a", ["near"]), ("b", ["full"]), ("c", ["full", "near"])]
 
 
+def test_what_will_be_needed_is_asked_for_in_one_wave_and_once_a_picture() -> None:
+    truth, reader = table()
+    few = AtomSpace((FULL,), CUPS[:1])
+    truth.labels(AtomSpace((FULL,), CUPS), [seen("a")])
+    truth.prefetch(
+        [
+            (AtomSpace((FULL, DARK), CUPS), [seen("a"), seen("b")]),
+            (AtomSpace((NEAR, DARK), CUPS), [seen("b"), seen("c")]),
+            (few, [seen("a")]),
+        ]
+    )
+    assert asked(reader.waves[1]) == [
+        ("a", ["dark"]),
+        ("b", ["full", "dark", "near"]),
+        ("c", ["near", "dark"]),
+        ("a", ["full"]),
+    ]
+    truth.prefetch([(few, [seen("a")])])
+    truth.labels(AtomSpace((FULL, DARK), CUPS), [seen("a"), seen("b")])
+    truth.labels(AtomSpace((NEAR, DARK), CUPS), [seen("b"), seen("c")])
+    assert len(reader.waves) == 2
+    assert truth.question_sizes == {3: 1, 1: 2, 3 + 1 + 6: 1, 6 + 1: 1}
+
+
+def test_what_was_fetched_before_is_what_would_have_been_asked() -> None:
+    pictures = [seen("full(blue)"), seen("dark() near(green, red)")]
+    spaces = [AtomSpace((FULL, DARK), CUPS), AtomSpace((NEAR,), CUPS)]
+    (early, _), (late, _) = table(), table()
+    early.prefetch((space, pictures) for space in spaces)
+    for space in spaces:
+        assert np.array_equal(early.labels(space, pictures), late.labels(space, pictures))
+
+
+def test_agreement_is_averaged_over_all_labels_of_a_predicate() -> None:
+    class Voters:
+        def evaluate(self, questions: Sequence[EvaluationQuestion]) -> list[EvaluationAnswer]:
+            answers = []
+            for question in questions:
+                atoms = all_groundings(question.predicates, question.objects)
+                shares = {atom: 0.5 if atom.terms == ("blue",) else 1.0 for atom in atoms}
+                answers.append(EvaluationAnswer(dict.fromkeys(atoms, True), shares))
+            return answers
+
+    truth = TruthTable(DOMAIN, Voters())
+    truth.labels(AtomSpace((FULL, DARK), CUPS), [seen("a"), seen("b")])
+    assert truth.agreement(FULL) == pytest.approx(2.5 / 3)
+    assert truth.agreement(DARK) == 1.0
+    assert truth.agreement(NEAR) is None
+    silent, _ = table()
+    silent.labels(AtomSpace((FULL,), CUPS), [seen("a")])
+    assert silent.agreement(FULL) is None
+
+
 def test_equal_pictures_are_one() -> None:
     truth, reader = table()
     labels = truth.labels(AtomSpace((DARK,), CUPS), [seen("dark()")] * 3)

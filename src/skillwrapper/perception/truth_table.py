@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -30,13 +32,33 @@ class TruthTable:
 
     Attributes:
         asked: how many (observation, predicate) pairs were asked for.
+        question_sizes: how many questions were asked with so many groundings.
     """
 
     def __init__(self, domain: Domain, evaluator: Evaluator) -> None:
         self._domain = domain
         self._evaluator = evaluator
         self._labels: dict[tuple[tuple[Object, ...], Predicate], dict[str, Labels]] = {}
+        self._agreement: dict[Predicate, list[float]] = {}
         self.asked = 0
+        self.question_sizes: Counter[int] = Counter()
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Ask for everything that will be needed in one wave, and for each picture only once.
+
+        What ``labels`` says afterwards is the same as without; it just need not wait.
+
+        Raises:
+            ProviderError: if the model does not answer.
+        """
+        questions: dict[tuple[tuple[Object, ...], str], EvaluationQuestion] = {}
+        for space, observations in wanted:
+            for question in self._missing(space, observations):
+                key = (question.objects, question.observation.key)
+                known = questions.get(key, question)
+                both = dict.fromkeys((*known.predicates, *question.predicates))
+                questions[key] = replace(question, predicates=tuple(both))
+        self._ask(list(questions.values()))
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         """Labels (observations, atoms): TRUE, FALSE or UNKNOWN.
@@ -44,7 +66,7 @@ class TruthTable:
         Raises:
             ProviderError: if the model does not answer.
         """
-        self._ask_missing(space, observations)
+        self._ask(self._missing(space, observations))
         columns = [
             np.array([self._known(space.objects, p)[o.key] for o in observations], dtype=np.int8)
             for p in space.predicates
@@ -62,28 +84,46 @@ class TruthTable:
                 found.update((atom, int(value)) for atom, value in values)
         return found
 
+    def agreement(self, predicate: Predicate) -> float | None:
+        """The share of votes for the label, on average over all labels read of a predicate.
+
+        None if nothing was voted on.
+        """
+        shares = self._agreement.get(predicate)
+        return sum(shares) / len(shares) if shares else None
+
     def _known(self, objects: tuple[Object, ...], predicate: Predicate) -> dict[str, Labels]:
         return self._labels.setdefault((objects, predicate), {})
 
-    def _ask_missing(self, space: AtomSpace, observations: Sequence[Observation]) -> None:
+    def _missing(
+        self, space: AtomSpace, observations: Sequence[Observation]
+    ) -> list[EvaluationQuestion]:
+        """A question for each observation of which not all is known."""
+        known = [(p, self._known(space.objects, p)) for p in space.predicates]
         questions = []
         for observation in {o.key: o for o in observations}.values():
-            missing = tuple(
-                p for p in space.predicates if observation.key not in self._known(space.objects, p)
-            )
+            missing = tuple(p for p, rows in known if observation.key not in rows)
             if missing:
                 questions.append(
                     EvaluationQuestion(self._domain, space.objects, observation, missing)
                 )
+        return questions
+
+    def _ask(self, questions: Sequence[EvaluationQuestion]) -> None:
         if not questions:
             return
         self.asked += sum(len(q.predicates) for q in questions)
         answers = self._evaluator.evaluate(questions)
         for question, answer in zip(questions, answers, strict=True):
+            groundings = 0
             for predicate in question.predicates:
-                atoms = predicate.groundings(space.objects)
-                known = self._known(space.objects, predicate)
+                atoms = predicate.groundings(question.objects)
+                groundings += len(atoms)
+                known = self._known(question.objects, predicate)
                 known[question.observation.key] = encode_labels(atoms, answer.labels)
+                shares = [answer.agreement[atom] for atom in atoms if atom in answer.agreement]
+                self._agreement.setdefault(predicate, []).extend(shares)
+            self.question_sizes[groundings] += 1
 
 
 def encode_labels(atoms: Sequence[Atom], labels: Mapping[Atom, bool | None]) -> Labels:
