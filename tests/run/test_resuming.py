@@ -15,10 +15,11 @@ from pathlib import Path
 
 import pytest
 
-from skillwrapper.errors import LimitReachedError
+from skillwrapper.errors import LimitReachedError, ModelNotFoundError, RunFolderError
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.run.assistants import Spending
 from skillwrapper.run.config import ModelSettings, RunConfig
+from skillwrapper.run.folder import held
 from skillwrapper.run.learn import learn
 from skillwrapper.vlm.embedded import EmbeddedModel
 from skillwrapper.vlm.limits import CallLimits
@@ -112,6 +113,43 @@ def test_a_resumed_run_goes_the_way_it_went_whatever_the_model_would_say_now(
     learn(config().model_copy(update={"model": recording}), tmp_path / "replay")
     for other in (run, tmp_path / "again", tmp_path / "replay"):
         assert model_of(other) == found
+
+
+def test_a_finished_run_is_not_replaced_by_a_shorter_one(tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    learn(config(), run)
+    before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    with pytest.raises(RunFolderError, match=r"2 iterations are finished.*--iterations 2 or more"):
+        learn(config().model_copy(update={"iterations": 1}), run)
+    after = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
+    assert after == before
+
+
+def test_two_processes_do_not_learn_in_one_folder(tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    with held(run), pytest.raises(RunFolderError, match="another process is learning"):
+        learn(config(), run)
+    assert not run.exists()
+    learn(config(), run)
+
+
+def test_a_mistake_that_only_the_server_notices_leaves_nothing_behind(tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    with VlmServer(EmbeddedModel(1)) as server:
+        settings = ModelSettings(name="openai:embeddde", base_url=server.url)
+        wrong = config().model_copy(update={"model": settings})
+        with pytest.raises(ModelNotFoundError):
+            learn(wrong, run, None, FAST)
+        assert not run.exists()
+        run.mkdir()
+        with pytest.raises(ModelNotFoundError):
+            learn(wrong, run, None, FAST)
+        assert not list(run.iterdir())
+        learn(config(server.url), run, None, FAST)
+        kept = sorted(run.iterdir())
+        with pytest.raises(RunFolderError, match="other settings"):
+            learn(wrong, run, None, FAST)
+    assert sorted(run.iterdir()) == kept
 
 
 _LEARNER = """

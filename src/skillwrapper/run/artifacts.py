@@ -16,7 +16,7 @@ from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.folder import RunFolder, write_atomically, write_json
 from skillwrapper.symbols import AbstractModel, AtomSpace
 from skillwrapper.symbols.describe import describe_model
-from skillwrapper.symbols.files import write_model, write_predicates
+from skillwrapper.symbols.files import model_to_json, predicates_to_yaml
 from skillwrapper.symbols.pddl import print_domain
 
 
@@ -30,8 +30,8 @@ def write_iteration(
     """Describe an iteration; ``summary.json``, written by the caller, marks it complete."""
     target = folder.iteration(number)
     target.mkdir(parents=True, exist_ok=True)
-    write_predicates(target / "predicates.yaml", fit.predicates)
-    write_model(target / "model.json", fit.model)
+    write_atomically(target / "predicates.yaml", predicates_to_yaml(fit.predicates))
+    write_atomically(target / "model.json", model_to_json(fit.model))
     write_atomically(target / "operators.txt", describe_model(fit.model))
     write_json(target / "certificate.json", certificate.to_json())
     write_json(target / "unresolved.json", list(unresolved))
@@ -53,9 +53,8 @@ def write_truth_table(path: Path, fit: Fit, dataset: Dataset, truth: TruthTable)
 
 def write_learned_model(folder: RunFolder, model: AbstractModel) -> None:
     """The three files of ``model/``."""
-    folder.model.mkdir(exist_ok=True)
-    write_predicates(folder.model / "predicates.yaml", model.predicates)
-    write_model(folder.model / "model.json", model)
+    write_atomically(folder.model / "predicates.yaml", predicates_to_yaml(model.predicates))
+    write_atomically(folder.model / "model.json", model_to_json(model))
     write_atomically(folder.model / "domain.pddl", print_domain(model))
 
 

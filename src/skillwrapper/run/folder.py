@@ -12,9 +12,11 @@ events.jsonl       what happened when
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -123,6 +125,12 @@ class RunFolder:
         """Where an iteration (from 1) is described."""
         return self.path / "iterations" / f"{number:03d}"
 
+    def discard_beginning(self) -> None:
+        """Remove what ``create_or_resume`` and a start without any result have written."""
+        stores = self.path.glob(f"{self.calls.name}*")
+        for path in (self.path / CONFIG, self.path / "domain.yaml", self.events, *stores):
+            path.unlink(missing_ok=True)
+
     def finished_iterations(self) -> int:
         """How many iterations are complete."""
         number = 0
@@ -155,6 +163,41 @@ class RunFolder:
         if picture.sha256 != sha256:
             raise RunFolderError(f"{path}: the picture was changed since it was recorded")
         return picture
+
+
+@contextmanager
+def held(path: Path) -> Iterator[None]:
+    """Keep other runs out of a folder; one that is made for it and stays empty is removed.
+
+    The operating system lets go of the folder when the process ends, however it ends.
+
+    Raises:
+        RunFolderError: if another run is at work in it, or it is a file.
+    """
+    if path.exists() and not path.is_dir():
+        raise RunFolderError(f"{path}: expected a folder, got a file; choose another --out")
+    is_new = not path.exists()
+    path.mkdir(parents=True, exist_ok=True)
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        _lock(handle, path)
+        yield
+    finally:
+        os.close(handle)
+        if is_new and not any(path.iterdir()):
+            path.rmdir()
+
+
+def _lock(handle: int, path: Path) -> None:
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise RunFolderError(
+            f"{path}: another process is learning in this folder; wait until it ends, or choose "
+            "another --out"
+        ) from error
+    except OSError:
+        """A file system without locks: nobody can be kept out."""
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:

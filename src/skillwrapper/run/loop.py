@@ -127,13 +127,17 @@ class LearningRun:
             LimitReachedError: if a limit of the user's is reached; the run can be resumed.
         """
         result = None
-        while self._iteration < self._config.iterations and not self._converged:
+        while self._iteration < self._config.iterations and not self._is_over():
             result = self._iterate()
         if result is None:
             result = self._result()
         write_learned_model(self._folder, result.fit.model)
         write_json(self._folder.path / "result.json", result.to_json())
         return result
+
+    def _is_over(self) -> bool:
+        """Whether the run has converged; iterations that are there already stay part of it."""
+        return self._converged and self._iteration >= self._finished
 
     def _make_inventor(self, assistant: Assistant) -> Inventor | BatchInventor:
         settings = self._config.learning

@@ -74,11 +74,15 @@ class _ModelFile(_Entry):
     operators: list[_OperatorEntry]
 
 
+def predicates_to_yaml(predicates: Iterable[Predicate]) -> str:
+    """Predicates as YAML, in their order; equal predicates, equal text."""
+    entries = {"predicates": [_predicate_entry(p).model_dump() for p in predicates]}
+    return yaml.safe_dump(entries, sort_keys=False, allow_unicode=True, width=88)
+
+
 def write_predicates(path: Path, predicates: Iterable[Predicate]) -> None:
     """Write predicates as YAML, in their order; their semantics are one line each."""
-    entries = {"predicates": [_predicate_entry(p).model_dump() for p in predicates]}
-    text = yaml.safe_dump(entries, sort_keys=False, allow_unicode=True, width=88)
-    path.write_text(text, encoding="utf-8")
+    path.write_text(predicates_to_yaml(predicates), encoding="utf-8")
 
 
 def read_predicates(path: Path, domain: Domain) -> tuple[Predicate, ...]:
