@@ -177,8 +177,12 @@ def test_calls_are_listed_and_added_up(
     told = json.loads(capsys.readouterr().out)
     assert told["total"]["made"] == len(told["calls"]) == server.calls
     assert told["total"]["cost"] is None
+    asked = sum(t["made"] for t in told["totals"] if t["role"] == "evaluate")
+    assert told["readings"]["needed"] == asked
+    assert told["readings"]["reasking"] > 0
     assert command(monkeypatch, "calls", run, "--role", "propose", "--iteration", "1") == 0
     shown = capsys.readouterr().out
+    assert f"evaluate: {asked} calls needed" in " ".join(shown.split())
     assert shown.count("answered") == 1
     assert "unknown" in shown
 
@@ -197,6 +201,39 @@ def test_the_doctor(
     line = ("doctor", "--model", f"openai:{model}", "--base-url", server.url)
     assert command(monkeypatch, *line) == (0 if model == "embedded" else 2)
     assert said in capsys.readouterr().out
+
+
+def test_the_doctor_tries_the_templates_of_the_user(
+    server: VlmServer,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    line = ("doctor", "--model", "openai:embedded", "--base-url", server.url)
+    mine = ("--prompts", str(tmp_path))
+    (tmp_path / "system.j2").write_text("Be brief.")
+    assert command(monkeypatch, *line, *mine) == 0
+    assert "ok    prompt templates" in capsys.readouterr().out
+    (tmp_path / "system.j2").write_text("Be {{ brief }}.")
+    calls = server.calls
+    assert command(monkeypatch, *line, *mine) == 2
+    assert "unknown variable 'brief'" in capsys.readouterr().out
+    assert server.calls == calls
+
+
+def test_agreement_of_votes_is_shown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    size = ["--seed", "1", "--iterations", "1", "--budget", "8"]
+    run = str(tmp_path / "run")
+    assert command(monkeypatch, "learn", "burger", "--out", run, *size, "--votes", "3") == 0
+    capsys.readouterr()
+    assert command(monkeypatch, "show", run, "--json") == 0
+    shares = [p["agreement"] for p in json.loads(capsys.readouterr().out)["predicates"]]
+    assert shares
+    assert set(shares) == {1.0}
+    assert command(monkeypatch, "show", run) == 0
+    assert "agreement of the votes: 100.0%" in capsys.readouterr().out
 
 
 def test_mistakes_give_one_sentence_and_code_2(

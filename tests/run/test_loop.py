@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -129,6 +130,40 @@ def test_decisions_say_why(whole: Setting) -> None:
         for witness in decision.get("inconsistency", {}).get("witnesses", []):
             for sha256 in (*witness["before"], *witness["after"]):
                 assert (whole.folder.path / "images" / f"{sha256}.png").exists()
+
+
+def test_calls_that_were_needed_are_counted_beside_those_of_asking_everything_again(
+    whole: Setting,
+) -> None:
+    """Three executions leave at most four pictures; every candidate would have all asked again."""
+    summary = json.loads((whole.folder.iteration(3) / "summary.json").read_text())
+    result = json.loads((whole.folder.path / "result.json").read_text())
+    for name in ("evaluation_calls", "evaluation_calls_reasking"):
+        assert summary[name] == result[name] > 0
+    decisions = json.loads((whole.folder.iteration(1) / "decisions.json").read_text())
+    first = json.loads((whole.folder.iteration(1) / "summary.json").read_text())
+    candidates = [d for d in decisions if d["verdict"] in {"accepted", "rejected"}]
+    header, *rows = (whole.folder.iteration(1) / "truth_table.csv").read_text().splitlines()
+    assert header
+    assert first["evaluation_calls_reasking"] == len(candidates) * len(rows)
+
+
+def test_agreement_of_votes_is_kept_for_every_predicate(tmp_path: Path) -> None:
+    class Torn(LampAssistant):
+        """Three votes, of which one says otherwise about ``lit``."""
+
+        def evaluate(self, questions):
+            return [
+                replace(answer, agreement={a: 2 / 3 if a.terms else 1.0 for a in answer.labels})
+                for answer in super().evaluate(questions)
+            ]
+
+    setting = Setting(tmp_path)
+    setting.run(assistant=Torn())
+    learned = LearnedRun.read(setting.folder)
+    assert {p.name: learned.agreement(p) for p in learned.model.predicates} == {
+        p.name: 0.6667 if p.types else 1.0 for p in learned.model.predicates
+    }
 
 
 def test_the_truth_table_has_a_row_a_picture(whole: Setting) -> None:

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from skillwrapper.cli.model_options import BaseUrlOption
+from skillwrapper.cli.model_options import BaseUrlOption, PromptsOption
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.run.config import ModelSettings
 from skillwrapper.run.doctor import examine
@@ -41,7 +41,9 @@ def calls(
     as_json: JsonFlag = False,
 ) -> None:
     """List the model calls of a run, and what they took in all."""
-    with CallStore(RunFolder.open(run).calls, read_only=True) as store:
+    folder = RunFolder.open(run)
+    readings = _readings(folder)
+    with CallStore(folder.calls, read_only=True) as store:
         found = list(store.calls(role=role, iteration=iteration, status=status))
         totals = [
             t for t in store.totals() if role in {None, t.role} and iteration in {None, t.iteration}
@@ -50,23 +52,28 @@ def calls(
     if as_json:
         entries = [asdict(call) for call in shown]
         total = _describe_sum(totals)
-        print_json({"calls": entries, "totals": [asdict(t) for t in totals], "total": total})
+        parts = {"totals": [asdict(t) for t in totals], "total": total, "readings": readings}
+        print_json({"calls": entries, **parts})
         return
     for call in shown:
         _print_call(call, full)
     if len(shown) < len(found):
         results().print(f"the last {len(shown)} of {len(found)} calls; all with --last 0\n")
     _print_totals(totals)
+    if readings and readings["reasking"]:
+        results().print(_describe_readings(**readings))
 
 
 def doctor(
     model: Annotated[str, typer.Option(help="embedded, openai:NAME or recorded:DIR.")],
     base_url: BaseUrlOption = None,
+    prompts: PromptsOption = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Try a model with a few calls: key, endpoint, pictures, and whether its replies are of use."""
     findings = []
-    for finding in examine(ModelSettings(name=model, base_url=base_url)):
+    folder = str(prompts) if prompts else None
+    for finding in examine(ModelSettings(name=model, base_url=base_url, prompts=folder)):
         findings.append(finding)
         if not as_json:
             mark = "[green]ok[/]   " if finding.passed else "[red]wrong[/]"
@@ -97,6 +104,28 @@ def vlm_server(
         server.serve()
     except KeyboardInterrupt:
         messages().print("stopped")
+
+
+def _readings(folder: RunFolder) -> dict[str, int] | None:
+    """Calls that reading pictures took, and what asking everything again would have taken."""
+    last = folder.finished_iterations()
+    if not last:
+        return None
+    summary = json.loads((folder.iteration(last) / "summary.json").read_text(encoding="utf-8"))
+    if "evaluation_calls" not in summary:  # made by a version that did not count them
+        return None
+    return {
+        "needed": summary["evaluation_calls"],
+        "reasking": summary["evaluation_calls_reasking"],
+    }
+
+
+def _describe_readings(needed: int, reasking: int) -> str:
+    times = f", {reasking / needed:.1f} times as many" if needed else ""
+    return (
+        f"\nevaluate: {needed} calls needed for the iterations that are finished; asking every "
+        f"predicate on every picture after each invention: {reasking}{times}"
+    )
 
 
 def _print_call(call: StoredCall, full: bool) -> None:

@@ -68,7 +68,12 @@ def _describe(learned: LearnedRun) -> dict[str, object]:
     return {
         "summary": learned.summary,
         "predicates": [
-            {"name": p.name, "types": list(p.types), "semantics": p.semantics}
+            {
+                "name": p.name,
+                "types": list(p.types),
+                "semantics": p.semantics,
+                "agreement": learned.agreement(p),
+            }
             for p in model.predicates
         ],
         "operators": [describe_operator(o) for o in model.operators],
@@ -83,6 +88,9 @@ def _print(learned: LearnedRun) -> None:
     for predicate in learned.model.predicates:
         console.print(f"  {predicate.signature}", style="cyan", markup=False)
         console.print(f"      {predicate.semantics}", markup=False)
+        agreement = learned.agreement(predicate)
+        if agreement is not None:
+            console.print(f"      agreement of the votes: {agreement:.1%}", markup=False)
     console.print("\n[bold]operators[/]")
     for operator in learned.model.operators:
         for line in describe_operator(operator).splitlines():

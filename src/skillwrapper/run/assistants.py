@@ -113,7 +113,7 @@ def open_assistant(
     """
     settings, spending = config.model, spending or Spending()
     session = Session(budget=CallBudget(spending.limits))
-    prompts = _prompts(settings)
+    prompts = open_prompts(settings)
     with ExitStack() as resources:
         opened = {name: _open(settings, name, config.seed, resources) for name in _names(settings)}
         kept = {n: m for n, m in opened.items() if _is_kept(n, m, learning)}
@@ -133,7 +133,7 @@ def check_models(config: RunConfig) -> None:
         UserError: if a name, an option, a recording or a template is not what it should be.
         AuthenticationError: if a key is missing.
     """
-    _prompts(config.model)
+    open_prompts(config.model)
     with ExitStack() as resources:
         for name in _names(config.model):
             _open(config.model, name, config.seed, resources)
@@ -158,7 +158,12 @@ def _names(settings: ModelSettings) -> tuple[str, ...]:
     return tuple(dict.fromkeys((settings.name, *settings.roles.values())))
 
 
-def _prompts(settings: ModelSettings) -> PromptLibrary:
+def open_prompts(settings: ModelSettings) -> PromptLibrary:
+    """The templates of a run.
+
+    Raises:
+        UserError: if the folder or a template in it cannot be used.
+    """
     return PromptLibrary(Path(settings.prompts) if settings.prompts else None)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ProviderError, UserError
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.run.assistants import make_model
+from skillwrapper.run.assistants import make_model, open_prompts
 from skillwrapper.run.config import ModelSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.vlm.assistant import Assistant
@@ -63,7 +63,7 @@ def examine(settings: ModelSettings) -> Iterator[Finding]:
     """Try a model; stops at the first check that makes the others pointless.
 
     Args:
-        settings: which model, and where.
+        settings: which model, where, and with which templates.
     """
     try:
         model = make_model(settings, settings.name, 0)
@@ -71,9 +71,16 @@ def examine(settings: ModelSettings) -> Iterator[Finding]:
         yield Finding("name and key", False, str(error))
         return
     yield Finding("name and key", True, f"{settings.name} can be asked")
+    try:
+        prompts = open_prompts(settings)
+    except UserError as error:
+        yield Finding("prompt templates", False, str(error))
+        return
+    if settings.prompts:
+        yield Finding("prompt templates", True, f"those in {settings.prompts} can be used")
     patient = RetryingModel(model, _ATTEMPTS)
     specimen = _specimen()
-    assistant = Assistant(ModelSet.of(patient), None, _HOW)
+    assistant = Assistant(ModelSet.of(patient), prompts, _HOW)
     checks: tuple[tuple[str, Callable[[], Finding]], ...] = (
         ("endpoint", lambda: _answers(patient)),
         ("pictures", lambda: _accepts_pictures(patient, specimen)),

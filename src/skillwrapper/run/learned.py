@@ -8,7 +8,7 @@ from typing import Any
 
 from skillwrapper.errors import RunFolderError
 from skillwrapper.run.folder import RunFolder
-from skillwrapper.symbols import AbstractModel
+from skillwrapper.symbols import AbstractModel, Predicate
 from skillwrapper.symbols.files import read_model
 from skillwrapper.world.domain import load_domain
 
@@ -30,6 +30,14 @@ class LearnedRun:
     certificate: dict[str, Any]
     unresolved: list[dict[str, Any]]
     summary: dict[str, Any]
+
+    def agreement(self, predicate: Predicate) -> float | None:
+        """The share of votes for the label, on average over all labels read of a predicate.
+
+        None if labels were not voted on.
+        """
+        known: dict[str, float] = self.summary.get("agreement", {})
+        return known.get(predicate.name)
 
     @classmethod
     def read(cls, folder: RunFolder) -> LearnedRun:

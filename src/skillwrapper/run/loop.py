@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,11 +18,12 @@ from skillwrapper.learning.certification import Certificate, certify
 from skillwrapper.learning.dataset import Dataset
 from skillwrapper.learning.fitting import Fit, Fitter
 from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
-from skillwrapper.learning.invention import Decision, Inventor
+from skillwrapper.learning.invention import Decision, Inventor, Verdict
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.pruning import Pruned, prune
 from skillwrapper.learning.untested import find_untested
 from skillwrapper.learning.vocabulary import Vocabulary
+from skillwrapper.perception.reading_calls import ReadingCalls
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.run.artifacts import (
     describe_inconsistency,
@@ -36,7 +38,7 @@ from skillwrapper.run.events import EventKind, RunEvent, Watcher
 from skillwrapper.run.folder import RunFolder, append_line, write_json
 from skillwrapper.run.proposer import ModelProposer
 from skillwrapper.run.recorder import EpisodeRecorder
-from skillwrapper.symbols import AtomSpace
+from skillwrapper.symbols import AtomSpace, Predicate
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
@@ -55,6 +57,9 @@ class LearningResult:
         executions: how many skills were executed.
         iterations: how many iterations were run.
         converged: whether the last iteration brought nothing new; only told if asked for.
+        readings: calls that reading the pictures took.
+        readings_reasking: calls that it would take to ask every predicate on every picture after
+            each invention.
     """
 
     fit: Fit
@@ -63,6 +68,8 @@ class LearningResult:
     executions: int
     iterations: int
     converged: bool = False
+    readings: int = 0
+    readings_reasking: int = 0
 
     def to_json(self) -> dict[str, Any]:
         """Figures as plain data."""
@@ -79,6 +86,8 @@ class LearningResult:
             "inconsistencies": len(self.fit.inconsistencies),
             "inconsistencies_by_kind": {str(k): kinds[str(k)] for k in InconsistencyKind},
             "unresolved": len(self.unresolved),
+            "evaluation_calls": self.readings,
+            "evaluation_calls_reasking": self.readings_reasking,
         }
 
 
@@ -108,6 +117,8 @@ class LearningRun:
         self._recorder = EpisodeRecorder(folder, environment)
         self.dataset = Dataset(domain)
         self.truth = TruthTable(domain, assistant)
+        asking = config.model.assistant
+        self._readings = ReadingCalls(self.truth, asking.batch_size, asking.votes)
         self._explorer = Explorer(domain, assistant, config.exploration, config.seed)
         self._fitter = Fitter(domain, self.dataset, self.truth, absences=config.learning.absences)
         self._vocabulary = Vocabulary(domain.types)
@@ -191,6 +202,8 @@ class LearningRun:
             len(self.dataset),
             self._iteration,
             self._converged,
+            self._readings.needed,
+            self._readings.reasking,
         )
 
     def _write(self, result: LearningResult) -> None:
@@ -201,10 +214,18 @@ class LearningRun:
         write_iteration(self._folder, self._iteration, result.fit, result.certificate, unresolved)
         write_truth_table(target / "truth_table.csv", result.fit, self.dataset, self.truth)
         write_json(target / "decisions.json", self._decisions)
-        summary = {**result.to_json(), "pairs_covered": self._explorer.pairs.share_covered()}
+        agreement = {p.name: self.truth.agreement(p) for p in result.fit.predicates}
+        summary = {
+            **result.to_json(),
+            "pairs_covered": self._explorer.pairs.share_covered(),
+            "agreement": {name: round(a, 4) for name, a in agreement.items() if a is not None},
+        }
         write_json(target / "summary.json", summary)
 
     def _decided(self, decision: Decision) -> None:
+        if self._is_invention(decision):
+            vocabulary = self._vocabulary.with_candidate(decision.predicate)
+            self._readings.count_invention(self._everything(vocabulary))
         entry: dict[str, Any] = {
             "verdict": str(decision.verdict),
             "predicate": decision.predicate.signature,
@@ -216,6 +237,22 @@ class LearningRun:
             entry["inconsistency"] = describe_inconsistency(decision.inconsistency, self.dataset)
         self._decisions.append(entry)
         self._tell(EventKind.PREDICATE_DECIDED, **entry)
+
+    def _is_invention(self, decision: Decision) -> bool:
+        """Whether a candidate is new; one that is taken in the end after all was counted before."""
+        if decision.inconsistency is None:
+            return False
+        if decision.verdict is Verdict.ACCEPTED:
+            return decision.predicate not in self._vocabulary.rejected
+        return decision.verdict is Verdict.REJECTED
+
+    def _everything(
+        self, predicates: Sequence[Predicate]
+    ) -> Iterator[tuple[AtomSpace, Sequence[Observation]]]:
+        """All groundings and all pictures of every scene."""
+        for scene in self.dataset.scenes:
+            space = AtomSpace(tuple(predicates), self.dataset.objects(scene))
+            yield space, self.dataset.observations(scene)
 
     def _set_dormant(self, pruned: Pruned) -> None:
         entry = {"predicate": pruned.predicate.signature, "reason": pruned.reason}

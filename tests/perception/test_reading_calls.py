@@ -1,0 +1,48 @@
+"""Calls that reading pictures takes, and would take if nothing were remembered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from skillwrapper.perception.reading_calls import ReadingCalls
+from skillwrapper.perception.truth_table import TruthTable
+from skillwrapper.symbols import AtomSpace, Predicate, all_groundings
+from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.world import Domain, Object, Observation, Picture, TypeHierarchy
+
+CUPS = tuple(Object(name, ("cup",)) for name in ("red", "blue", "green"))
+DOMAIN = Domain("cups", "A hand.", "Cups.", TypeHierarchy({"cup": ()}), CUPS, ())
+FULL = Predicate("full", ("cup",))
+NEAR = Predicate("near", ("cup", "cup"))
+
+
+class Reader:
+    def evaluate(self, questions: Sequence[EvaluationQuestion]) -> list[EvaluationAnswer]:
+        return [
+            EvaluationAnswer(dict.fromkeys(all_groundings(q.predicates, q.objects), True))
+            for q in questions
+        ]
+
+
+def pictures(count: int) -> list[Observation]:
+    return [Observation((Picture(bytes([number])),)) for number in range(count)]
+
+
+def test_a_batch_a_vote_and_a_picture_is_a_call() -> None:
+    truth = TruthTable(DOMAIN, Reader())
+    calls = ReadingCalls(truth, batch_size=4, votes=3)
+    assert (calls.needed, calls.reasking) == (0, 0)
+    truth.labels(AtomSpace((FULL,), CUPS), pictures(2))
+    assert calls.needed == 2 * 3
+    truth.labels(AtomSpace((FULL, NEAR), CUPS), pictures(3))
+    assert calls.needed == 2 * 3 + (2 * 2 + 1 * 3) * 3
+
+
+def test_asking_everything_again_counts_all_predicates_and_pictures() -> None:
+    calls = ReadingCalls(TruthTable(DOMAIN, Reader()), batch_size=4, votes=1)
+    calls.count_invention([(AtomSpace((FULL,), CUPS), pictures(2))])
+    assert calls.reasking == 2
+    everything = AtomSpace((FULL, NEAR), CUPS)
+    calls.count_invention([(everything, pictures(5)), (AtomSpace((FULL,), CUPS), pictures(1))])
+    assert calls.reasking == 2 + 5 * 3 + 1
+    assert calls.needed == 0
