@@ -69,7 +69,7 @@ def config(url: str | None = None) -> RunConfig:
         domain="burger",
         seed=1,
         iterations=2,
-        exploration=ExplorationSettings(budget=5),
+        exploration=ExplorationSettings(budget=8),
         model=model if url else ModelSettings(),
     )
 

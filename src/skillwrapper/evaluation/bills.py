@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
 from skillwrapper.run.folder import RunFolder
-from skillwrapper.vlm.store import CallStore, CallTotals
+from skillwrapper.vlm.store import CallStore
+from skillwrapper.vlm.stored_call import CallTotals
 
 _FREE: Final = "embedded"
 _Number = TypeVar("_Number", int, float)

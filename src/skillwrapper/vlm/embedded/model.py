@@ -29,7 +29,7 @@ _ASKED_AGAIN = "\n\nThis is asked again (time "
 _MOST_TIMEOUTS = 12
 _CHARACTERS_PER_TOKEN = 4
 _TOKENS_PER_PICTURE = 765
-_VERSION = 1
+_VERSION = 2
 """Raised when replies change, so that stored replies of older versions are not served."""
 
 
