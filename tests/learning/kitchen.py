@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -133,6 +133,9 @@ def state_of(observation: Observation) -> BurgerState:
 
 class Eye:
     """Labels by concepts (``TruthSource``)."""
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Nothing to do: all labels are there."""
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         states = [state_of(o) for o in observations]

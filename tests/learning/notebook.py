@@ -78,6 +78,7 @@ class Notebook:
 
     Attributes:
         asked: for every call of ``labels`` the names of the predicates and how many pictures.
+        fetched: the same for what was announced to be needed.
     """
 
     def __init__(self, domain: Domain, *predicates: Predicate) -> None:
@@ -85,6 +86,7 @@ class Notebook:
         self.predicates = predicates
         self.dataset = Dataset(domain)
         self.asked: list[tuple[str, int]] = []
+        self.fetched: list[tuple[str, int]] = []
 
     def success(self, before: str, skill: str, after: str) -> None:
         self.episode((before, skill, True, after))
@@ -100,6 +102,10 @@ class Notebook:
             for before, skill, success, after in steps
         )
         self.dataset.add(Episode(names, 0, transitions))
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        for space, observations in wanted:
+            self.fetched.append((" ".join(p.name for p in space.predicates), len(observations)))
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         self.asked.append((" ".join(p.name for p in space.predicates), len(observations)))

@@ -135,6 +135,12 @@ def test_all_promising_candidates_are_labelled_in_one_go() -> None:
     assert together[0] == "round empty"
 
 
+def test_the_pictures_of_the_witnesses_are_labelled_for_all_candidates_in_one_go() -> None:
+    notebook = full_hand()
+    Study(notebook, [ROUND, HELD, EMPTY, SHINY]).inventor.invent()
+    assert [names for names, n in notebook.fetched if n == 1][:2] == ["round held empty shiny"] * 2
+
+
 def test_the_best_of_several_is_kept() -> None:
     """``round`` tells the first two transitions apart as well, but not all."""
     notebook = full_hand()

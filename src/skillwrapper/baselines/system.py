@@ -6,7 +6,7 @@ absences the predicates cannot say that nothing lies on an item; with them they 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Final
@@ -46,6 +46,9 @@ class RecordedStates:
             self.states[transition.before.key] = state
             _, state = environment.successor(state, transition.instance)
             self.states[transition.after.key] = state
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Nothing to do: all labels are there."""
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         """True labels (observations, atoms)."""

@@ -7,7 +7,7 @@ only take time. That both give the same labels is tested.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -24,6 +24,9 @@ class PlainSight:
 
     def __init__(self) -> None:
         self._eye = Eye()
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Nothing to do: looking costs nothing."""
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         """Labels (observations, atoms): TRUE, FALSE or UNKNOWN."""

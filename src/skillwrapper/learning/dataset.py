@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -25,6 +25,10 @@ class TruthSource(Protocol):
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         """Labels (observations, atoms) of the ground atoms; never asks twice for the same."""
+        ...
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Announce what will be needed, so that it can be asked for at once."""
         ...
 
 

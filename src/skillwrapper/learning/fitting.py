@@ -164,13 +164,20 @@ class Fitter:
 
     def fit_each(self, predicates: Sequence[Predicate]) -> Iterator[SkillFit]:
         """The same, one skill after the other, for who may have seen enough before the last."""
-        useful = tuple(p for p in predicates if not self.is_tautology(p))
+        useful = self._useful(predicates)
         return (self._fit_skill(skill, useful) for skill in self.domain.skills)
 
     def fit_skill(self, skill: str, predicates: Sequence[Predicate]) -> SkillFit:
         """Learn one skill with a vocabulary."""
-        useful = tuple(p for p in predicates if not self.is_tautology(p))
+        useful = self._useful(predicates)
         return self._fit_skill(self.domain.skill_by_name[skill], useful)
+
+    def _useful(self, predicates: Sequence[Predicate]) -> tuple[Predicate, ...]:
+        """Those that are no tautologies; what is not labelled yet is asked for in one go."""
+        fresh = [p for p in predicates if (p, len(self.dataset)) not in self._tautology]
+        for scene in self.dataset.scenes if fresh else ():
+            self.reading.labels(scene, fresh)
+        return tuple(p for p in predicates if not self.is_tautology(p))
 
     def is_tautology(self, predicate: Predicate) -> bool:
         """Whether all known labels of a predicate are equal, over all data (DESIGN.md D9)."""

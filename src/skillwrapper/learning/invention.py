@@ -261,6 +261,7 @@ class Inventor:
         self, inconsistency: Inconsistency, candidates: Sequence[Predicate], *, dormant: bool
     ) -> Iterator[Predicate]:
         """Ask for the witnesses' pictures first: who cannot tell them apart needs no more."""
+        self._look_at_witnesses(inconsistency, candidates)
         for predicate in candidates:
             if self._separates(inconsistency, predicate):
                 yield predicate
@@ -275,6 +276,23 @@ class Inventor:
                         "does not tell the two transitions apart",
                     )
                 )
+
+    def _look_at_witnesses(
+        self, inconsistency: Inconsistency, candidates: Sequence[Predicate]
+    ) -> None:
+        """Have the witnesses' pictures labelled for all candidates in one go."""
+        dataset = self._fitter.dataset
+        changes = inconsistency.second is None or inconsistency.kind is InconsistencyKind.EFFECT
+        wanted = []
+        for number in (inconsistency.first, inconsistency.second):
+            if number is not None and candidates:
+                record = dataset.records[number]
+                space = AtomSpace(tuple(candidates), dataset.objects(record.scene))
+                moments = [record.transition.before]
+                if changes:
+                    moments.append(record.transition.after)
+                wanted.append((space, moments))
+        self._fitter.truth.prefetch(wanted)
 
     def _separates(self, inconsistency: Inconsistency, predicate: Predicate) -> bool:
         first, second = inconsistency.first, inconsistency.second
