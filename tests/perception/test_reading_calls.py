@@ -46,3 +46,12 @@ def test_asking_everything_again_counts_all_predicates_and_pictures() -> None:
     calls.count_invention([(everything, pictures(5)), (AtomSpace((FULL,), CUPS), pictures(1))])
     assert calls.reasking == 2 + 5 * 3 + 1
     assert calls.needed == 0
+
+
+def test_new_pictures_are_counted_once() -> None:
+    calls = ReadingCalls(TruthTable(DOMAIN, Reader()), batch_size=4, votes=1)
+    everything = AtomSpace((FULL, NEAR), CUPS)
+    calls.count_arrival([(AtomSpace((FULL,), CUPS), pictures(2))])
+    assert calls.reasking == 2
+    calls.count_arrival([(everything, pictures(5)), (AtomSpace((FULL,), CUPS[:2]), pictures(1))])
+    assert calls.reasking == 2 + 3 * 3 + 1

@@ -69,7 +69,7 @@ def config(url: str | None = None) -> RunConfig:
         domain="burger",
         seed=1,
         iterations=2,
-        exploration=ExplorationSettings(budget=8),
+        exploration=ExplorationSettings(budget=12),
         model=model if url else ModelSettings(),
     )
 
@@ -93,7 +93,7 @@ def test_a_resumed_run_goes_the_way_it_went_whatever_the_model_would_say_now(
     run = tmp_path / "run"
     with VlmServer(model) as server:
         sessions = 0
-        for calls in (4, 12, 12, None):
+        for calls in (4, 8, 8, None):
             spending = replace(FAST, limits=CallLimits(calls=calls), shared=shared)
             try:
                 learn(config(server.url), run, None, spending)
@@ -169,7 +169,7 @@ def test_a_run_that_is_killed_among_faults_ends_as_if_nothing_had_been(tmp_path:
         command = [sys.executable, "-c", _LEARNER, str(Path(__file__).parent), server.url, str(run)]
         process = subprocess.Popen(command)
         try:
-            while server.calls < 30 and process.poll() is None:
+            while server.calls < 15 and process.poll() is None:
                 time.sleep(0.001)
         finally:
             os.kill(process.pid, signal.SIGKILL)

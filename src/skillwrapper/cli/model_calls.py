@@ -124,7 +124,8 @@ def _describe_readings(needed: int, reasking: int) -> str:
     times = f", {reasking / needed:.1f} times as many" if needed else ""
     return (
         f"\nevaluate: {needed} calls needed for the iterations that are finished; asking every "
-        f"predicate on every picture after each invention: {reasking}{times}"
+        f"predicate on every new picture, and on every picture after each invention: "
+        f"{reasking}{times}"
     )
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.symbols import AtomSpace
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.types import Object
 
 
 @dataclass
@@ -20,19 +21,32 @@ class ReadingCalls:
         truth: the labels, and how they were asked for.
         batch_size: groundings judged in one call, at most.
         votes: how often every grounding is judged.
-        reasking: what asking every predicate on every picture after each invention would take.
+        reasking: what it would take to ask every predicate on every new picture, and every
+            predicate on every picture after each invention.
     """
 
     truth: TruthTable
     batch_size: int
     votes: int
     reasking: int = 0
+    _arrived: dict[tuple[Object, ...], int] = field(default_factory=dict)
 
     @property
     def needed(self) -> int:
         """Calls that were needed, from a store or not."""
         sizes = self.truth.question_sizes.items()
         return sum(times * self._calls(groundings) for groundings, times in sizes)
+
+    def count_arrival(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Count what reading the pictures that are new would take.
+
+        Args:
+            wanted: the whole vocabulary and all pictures of each scene, in order of time.
+        """
+        for space, observations in wanted:
+            new = len(observations) - self._arrived.get(space.objects, 0)
+            self._arrived[space.objects] = len(observations)
+            self.reasking += new * self._calls(len(space.atoms))
 
     def count_invention(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         """Count what asking everything once more would take.

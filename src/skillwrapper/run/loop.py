@@ -166,6 +166,7 @@ class LearningRun:
         episode = self._explore()
         self.dataset.add(episode)
         self._explorer.record(episode)
+        self._readings.count_arrival(self._everything(self._vocabulary.active))
         self._converged = self._config.until_converged and self._convergence.is_reached()
         self._inventor.invent()
         if self._config.learning.prune:
