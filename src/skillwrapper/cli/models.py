@@ -76,7 +76,7 @@ def _describe(learned: LearnedRun) -> dict[str, object]:
             }
             for p in model.predicates
         ],
-        "operators": [describe_operator(o) for o in model.operators],
+        "operators": [describe_operator(o, learned.untested(o)) for o in model.operators],
         "certificate": learned.certificate,
         "unresolved": learned.unresolved,
     }
@@ -93,7 +93,7 @@ def _print(learned: LearnedRun) -> None:
             console.print(f"      agreement of the votes: {agreement:.1%}", markup=False)
     console.print("\n[bold]operators[/]")
     for operator in learned.model.operators:
-        for line in describe_operator(operator).splitlines():
+        for line in describe_operator(operator, learned.untested(operator)).splitlines():
             console.print(f"  {line}", markup=False)
         console.print("")
     _print_certificate(learned)

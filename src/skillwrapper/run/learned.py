@@ -8,8 +8,9 @@ from typing import Any
 
 from skillwrapper.errors import RunFolderError
 from skillwrapper.run.folder import RunFolder
-from skillwrapper.symbols import AbstractModel, Predicate
+from skillwrapper.symbols import AbstractModel, Operator, Predicate
 from skillwrapper.symbols.files import read_model
+from skillwrapper.symbols.operators import Condition
 from skillwrapper.world.domain import load_domain
 
 
@@ -38,6 +39,11 @@ class LearnedRun:
         """
         known: dict[str, float] = self.summary.get("agreement", {})
         return known.get(predicate.name)
+
+    def untested(self, operator: Operator) -> frozenset[Condition]:
+        """The conditions of an operator of which nothing recorded shows that they matter."""
+        known = set(self.summary.get("untested", {}).get(operator.name, ()))
+        return frozenset(c for c in operator.conditions if str(c) in known)
 
     @classmethod
     def read(cls, folder: RunFolder) -> LearnedRun:

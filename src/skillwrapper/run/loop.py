@@ -219,6 +219,7 @@ class LearningRun:
         summary = {
             **result.to_json(),
             "pairs_covered": self._explorer.pairs.share_covered(),
+            "untested": {n: sorted(map(str, c)) for n, c in find_untested(result.fit).items()},
             "agreement": {name: round(a, 4) for name, a in agreement.items() if a is not None},
         }
         write_json(target / "summary.json", summary)

@@ -118,6 +118,11 @@ class Operator:
         """The parameters that are not the skill's own."""
         return self.parameters[self.arity :]
 
+    @property
+    def conditions(self) -> frozenset[Condition]:
+        """All that it asks for."""
+        return self.preconditions | self.absences | frozenset(self.parameters)
+
     def renamed(self, name: str) -> Operator:
         """The same operator under another name."""
         return Operator(
