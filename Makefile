@@ -19,7 +19,7 @@ setup: .venv/.installed
 
 demo: setup
 	$(BIN)/skillwrapper learn burger --out $(DEMO_DIR) --seed $(DEMO_SEED) --iterations 10 --budget 30
-	$(BIN)/skillwrapper verify $(DEMO_DIR)
+	$(BIN)/skillwrapper verify $(DEMO_DIR) --curve
 	$(BIN)/skillwrapper render burger --state examples/burger/finished.yaml --seed 7 --out $(DEMO_DIR)/goal.png
 	$(BIN)/skillwrapper solve $(DEMO_DIR) --init-seed 77 --goal $(DEMO_DIR)/goal.png
 	$(BIN)/skillwrapper report $(DEMO_DIR)

@@ -85,23 +85,6 @@ def test_pairs_of_skills() -> None:
     assert pairs.share_covered() == 0.5
 
 
-def test_least_explored() -> None:
-    pairs = PairCounts(INSTANCES)
-    every = [(a, b) for a in INSTANCES for b in INSTANCES if a != b]
-    for a, b in every[:-2]:
-        pairs.add([a, b])
-    named = pairs.least_explored(2, np.random.default_rng(0))
-    assert set(named) == set(every[-2:])
-    assert len(pairs.least_explored(99, np.random.default_rng(0))) == len(every)
-
-
-def test_ties_are_broken_by_chance() -> None:
-    pairs = PairCounts(INSTANCES)
-    first = {pairs.least_explored(1, np.random.default_rng(seed)) for seed in range(20)}
-    assert len(first) > 3
-    assert first == {pairs.least_explored(1, np.random.default_rng(seed)) for seed in range(20)}
-
-
 def test_without_instances() -> None:
     nothing: tuple[SkillInstance, ...] = ()
     assert PairCounts(nothing).share_covered() == 1

@@ -145,6 +145,19 @@ def test_the_question_names_what_was_tried_least_and_what_rarely_worked() -> Non
     assert len(question.operators) == len(MODEL.operators)
 
 
+def test_the_question_sets_untested_conditions_apart() -> None:
+    proposer = Proposer(DAY)
+    operator = next(o for o in MODEL.operators if o.preconditions)
+    doubted = min(operator.preconditions)
+    untested = {operator.name: [doubted]}
+    situation = Situation(GARDEN.objects, SEEN, state(0, 0), MODEL, untested)
+    explorer(proposer).choose(situation)
+    explorer(proposer).choose(SITUATION)
+    first, second = ("\n".join(q.operators) for q in proposer.questions)
+    assert f"may need {doubted}" in first
+    assert "may need" not in second
+
+
 def test_three_successes_are_enough() -> None:
     proposer = Proposer(DAY)
     helper = explorer(proposer)

@@ -22,7 +22,6 @@ class PairCounts:
     def __init__(self, instances: Sequence[SkillInstance], *, lifted: bool = False) -> None:
         keys = sorted({i.skill for i in instances}) if lifted else instances
         self._index: dict[object, int] = {key: number for number, key in enumerate(keys)}
-        self._instances = tuple(instances)
         self._lifted = lifted
         self.counts: NDArray[np.int64] = np.zeros((len(keys), len(keys)), dtype=np.int64)
 
@@ -37,17 +36,6 @@ class PairCounts:
     def share_covered(self) -> float:
         """Share of pairs that were tried at least once, 0 to 1."""
         return float((self.counts > 0).mean()) if self.counts.size else 1.0
-
-    def least_explored(
-        self, number: int, order: np.random.Generator
-    ) -> tuple[tuple[SkillInstance, SkillInstance], ...]:
-        """Pairs of skill instances tried least; ties are broken by chance."""
-        pairs = [(a, b) for a in self._instances for b in self._instances if a != b]
-        chance = order.permutation(len(pairs))
-        ranked = sorted(
-            range(len(pairs)), key=lambda i: (self.counts[self._place(*pairs[i])], chance[i])
-        )
-        return tuple(pairs[i] for i in ranked[:number])
 
     def _count(self, sequence: Iterable[SkillInstance]) -> NDArray[np.int64]:
         counts = np.zeros_like(self.counts)
