@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from skillwrapper.learning.data import SkillData
-from skillwrapper.learning.dataset import Dataset
+from skillwrapper.learning.dataset import Dataset, Reading
 from skillwrapper.learning.fitting import Fit, Fitter, SkillFit, fit_skill
 from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Atom, AtomSpace, Labels, Predicate
 from skillwrapper.world import (
@@ -120,7 +120,7 @@ class Notebook:
         return self.fitter().fit(predicates or self.predicates)
 
     def data(self, skill: str) -> SkillData:
-        return self.dataset.skill_data(skill, self.predicates, self)
+        return Reading(self.dataset, self).skill_data(skill, self.predicates)
 
     def fit_skill(self, skill: str) -> SkillFit:
         """One skill, tautologies included."""

@@ -15,10 +15,9 @@ from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
 from skillwrapper.symbols import AbstractModel, Predicate
 from skillwrapper.symbols.files import (
     model_to_json,
+    predicates_to_yaml,
     read_model,
     read_predicates,
-    write_model,
-    write_predicates,
 )
 
 
@@ -27,7 +26,7 @@ from skillwrapper.symbols.files import (
 def test_model_round_trip(model: AbstractModel) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "model.json")
-        write_model(path, model)
+        path.write_text(model_to_json(model), encoding="utf-8")
         again = read_model(path, DOMAIN)
         assert again == model
         assert [p.semantics for p in again.predicates] == [p.semantics for p in model.predicates]
@@ -39,7 +38,7 @@ def test_model_round_trip(model: AbstractModel) -> None:
 def test_predicates_round_trip(vocabulary: tuple[Predicate, ...]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "predicates.yaml")
-        write_predicates(path, vocabulary)
+        path.write_text(predicates_to_yaml(vocabulary), encoding="utf-8")
         again = read_predicates(path, DOMAIN)
         assert again == vocabulary
         assert [p.semantics for p in again] == [p.semantics for p in vocabulary]

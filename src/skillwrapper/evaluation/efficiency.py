@@ -14,7 +14,7 @@ from skillwrapper.evaluation.learning_curves import CurvePoint, area_under, lear
 from skillwrapper.evaluation.methods import Prepared
 from skillwrapper.evaluation.state_truth import StateTruth
 from skillwrapper.exploration.coverage import PairCounts
-from skillwrapper.learning.dataset import Dataset, TruthSource
+from skillwrapper.learning.dataset import Dataset, Reading, TruthSource
 from skillwrapper.learning.operators import learn_operators
 from skillwrapper.symbols import Operator, Predicate
 from skillwrapper.world.domain import Domain
@@ -70,12 +70,13 @@ def share_changing(
     predictions, which takes too long after every single execution.
     """
     dataset, changes = Dataset(domain), 0
+    reading = Reading(dataset, recorded)
     known: dict[str, tuple[Operator, ...]] = {}
     for episode in prepared.episodes:
         for transition in episode.transitions:
             dataset.add(replace(episode, transitions=(transition,)))
             skill = domain.skill_by_name[transition.instance.skill]
-            data = dataset.skill_data(skill.name, predicates, recorded)
+            data = reading.skill_data(skill.name, predicates)
             found = learn_operators(domain, skill, data, predicates, absences=prepared.absences)
             learned = tuple(o.operator for o in found)
             changes += learned != known.get(skill.name, ())

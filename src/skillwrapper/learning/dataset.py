@@ -93,12 +93,6 @@ class Dataset:
         """Numbers of the transitions of a skill, in order of time."""
         return tuple(self._numbers.get(skill, ()))
 
-    def skill_data(
-        self, skill: str, predicates: Sequence[Predicate], truth: TruthSource
-    ) -> SkillData:
-        """The transitions of a skill as arrays, one table for each scene."""
-        return Reading(self, truth).skill_data(skill, predicates)
-
     def _row(self, scene: Scene, observation: Observation) -> int:
         rows = self._rows.setdefault(scene, {})
         if observation.key not in rows:

@@ -44,12 +44,12 @@ class Convergence:
 
         Transitions that hang on an unknown label are left out (DESIGN.md D10).
         """
-        before, dataset = self._before, self._fitter.dataset
+        before = self._before
         if before is None:
             return 0
         errors = 0
         for name, fit in before.skills.items():
-            data = dataset.skill_data(name, before.predicates, self._fitter.truth)
+            data = self._fitter.reading.skill_data(name, before.predicates)
             new = tuple(table.select(table.ids >= self._size) for table in data)
             errors += sum(map(_wrong, predict(new, fit.operators)))
         return errors

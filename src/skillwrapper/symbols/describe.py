@@ -26,13 +26,12 @@ def describe_operator(operator: Operator, untested: Collection[Condition] = ()) 
     context = ", ".join(map(str, operator.context))
     with_context = f" with {context}" if context else ""
     literals = sorted(operator.preconditions, key=_positive_first)
-    absences, types = sorted(operator.absences), operator.parameters
+    absences = sorted(operator.absences)
     lines = [f"{operator.name}: {operator.skill}({own}){with_context}"]
-    lines += _line("needs", (str(c) for c in literals if c not in untested))
-    lines += _line("needs", (str(c) for c in absences if c not in untested))
-    lines += _line("may need", (str(c) for c in literals if c in untested))
-    lines += _line("may need", (str(c) for c in absences if c in untested))
-    lines += _line("may need", (str(c) for c in types if c in untested))
+    for title, doubted in (("needs", False), ("may need", True)):
+        for conditions in (literals, absences):
+            lines += _line(title, (str(c) for c in conditions if (c in untested) is doubted))
+    lines += _line("may need", (str(v) for v in operator.parameters if v in untested))
     lines += _line("makes true", map(str, sorted(operator.add_effects)))
     lines += _line("makes false", map(str, sorted(operator.delete_effects)))
     lines += _line("changes", (str(effect) for effect in sorted(operator.conditional_effects)))

@@ -75,18 +75,13 @@ class _ModelFile(_Entry):
 
 
 def predicates_to_yaml(predicates: Iterable[Predicate]) -> str:
-    """Predicates as YAML, in their order; equal predicates, equal text."""
+    """Predicates as YAML, in their order, their semantics on one line; equal ones, equal text."""
     entries = {"predicates": [_predicate_entry(p).model_dump() for p in predicates]}
     return yaml.safe_dump(entries, sort_keys=False, allow_unicode=True, width=88)
 
 
-def write_predicates(path: Path, predicates: Iterable[Predicate]) -> None:
-    """Write predicates as YAML, in their order; their semantics are one line each."""
-    path.write_text(predicates_to_yaml(predicates), encoding="utf-8")
-
-
 def read_predicates(path: Path, domain: Domain) -> tuple[Predicate, ...]:
-    """Read predicates that ``write_predicates`` wrote, or a person.
+    """Read predicates as ``predicates_to_yaml`` writes them, or a person.
 
     Raises:
         ConfigurationError: with file, line and what was expected.
@@ -106,13 +101,8 @@ def model_to_json(model: AbstractModel) -> str:
     return json.dumps(entries.model_dump(), indent=1, ensure_ascii=False) + "\n"
 
 
-def write_model(path: Path, model: AbstractModel) -> None:
-    """Write a complete model as JSON."""
-    path.write_text(model_to_json(model), encoding="utf-8")
-
-
 def read_model(path: Path, domain: Domain) -> AbstractModel:
-    """Read a model that ``write_model`` wrote; the exact inverse.
+    """Read a model as ``model_to_json`` writes it; the exact inverse.
 
     Raises:
         ConfigurationError: with file, line and what was expected; also for another domain.
