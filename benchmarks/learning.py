@@ -12,10 +12,11 @@ import numpy as np
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
-from skillwrapper.learning.data import SkillTable
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.learning.fitting import fit_skill
 from skillwrapper.learning.operators import learn_operators
-from skillwrapper.symbols import AtomSpace, Predicate
+from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.tables import SkillTable
 
 SIZES = (12_500, 25_000, 50_000, 100_000)
 NOTHING_ON = Predicate("nothing_on", ("pickupable",), "Nothing lies on the ingredient.")

@@ -12,17 +12,17 @@ from pathlib import Path
 import pytest
 
 from skillwrapper.cli.main import main
+from skillwrapper.embedded import EmbeddedModel
+from skillwrapper.embedded.server import ServerSettings, VlmServer
+from skillwrapper.embedded.server_faults import Fault, FaultPlan
 from skillwrapper.errors import LimitReachedError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.run.assistants import Spending
-from skillwrapper.run.config import ModelSettings, RunConfig
-from skillwrapper.run.learn import learn
-from skillwrapper.vlm.embedded import EmbeddedModel
+from skillwrapper.runs.assistants import Spending
+from skillwrapper.runs.config import ModelSettings, RunConfig
+from skillwrapper.runs.learn import learn
 from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.retrying import RetryPolicy
-from skillwrapper.vlm.server import ServerSettings, VlmServer
-from skillwrapper.vlm.server_faults import Fault, FaultPlan
 from skillwrapper.vlm.settings import AssistantSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus

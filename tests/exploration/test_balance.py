@@ -17,7 +17,8 @@ from garden import (
 )
 
 from skillwrapper.exploration.balance import balance, predicted_success_ratio
-from skillwrapper.symbols import UNKNOWN, AbstractModel, GroundModel
+from skillwrapper.grounding import UNKNOWN, GroundModel
+from skillwrapper.symbols import AbstractModel
 
 GROUND = GroundModel.of(MODEL, GARDEN.objects)
 

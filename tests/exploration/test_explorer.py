@@ -20,8 +20,8 @@ from garden import (
 )
 
 from skillwrapper.exploration.explorer import Explorer, Situation
+from skillwrapper.exploration.questions import ProposalAnswer, ProposalQuestion
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.vlm.questions import ProposalAnswer, ProposalQuestion
 from skillwrapper.world import Episode, SkillInstance, Transition
 
 SITUATION = Situation(GARDEN.objects, SEEN, state(0, 0), MODEL)

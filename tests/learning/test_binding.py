@@ -13,17 +13,11 @@ from hypothesis import strategies as st
 from notebook import Notebook
 from random_worlds import QUICK, notebooks
 
+from skillwrapper.grounding import ground_operator
 from skillwrapper.learning import binding
 from skillwrapper.learning.binding import bind_operator
-from skillwrapper.learning.data import SkillTable
-from skillwrapper.symbols import (
-    Atom,
-    ConditionalEffect,
-    Literal,
-    Operator,
-    Variable,
-    ground_operator,
-)
+from skillwrapper.symbols import Atom, ConditionalEffect, Literal, Operator, Variable
+from skillwrapper.transitions.tables import SkillTable
 
 Verdict = tuple[int, int, bytes]
 """Row, applicability and effect of a ground operator."""

@@ -9,12 +9,13 @@ from hypothesis import given
 from notebook import Notebook, make_domain
 from random_worlds import QUICK, notebooks
 
+from skillwrapper.grounding import UNKNOWN
 from skillwrapper.learning.clusters import (
     cluster_successes,
 )
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.learning.lifting import lift_change
-from skillwrapper.symbols import UNKNOWN, Predicate
+from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.lifting import lift_change
 
 KITCHEN = make_domain(
     types={"robot": (), "item": (), "place": ()},

@@ -7,15 +7,10 @@ import itertools
 import numpy as np
 from notebook import Notebook, atom, instance, make_domain
 
+from skillwrapper.grounding import GroundModel
 from skillwrapper.learning.certification import certify
 from skillwrapper.learning.fitting import Fit
-from skillwrapper.symbols import (
-    ConditionalEffect,
-    GroundModel,
-    Literal,
-    Predicate,
-    Variable,
-)
+from skillwrapper.symbols import ConditionalEffect, Literal, Predicate, Variable
 
 CANTEEN = make_domain(
     types={"robot": (), "thing": (), "tray": ("thing",), "cup": ("thing",), "room": ()},

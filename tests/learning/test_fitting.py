@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 from notebook import Notebook, make_domain
 
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.learning import fitting
-from skillwrapper.symbols import AtomSpace, Predicate
+from skillwrapper.symbols import Predicate
 
 KITCHEN = make_domain(
     types={"robot": (), "item": ()},

@@ -5,14 +5,14 @@ from __future__ import annotations
 from kitchen import DOMAIN, POOL, STATES, Eye, Thinker, compare, explore
 
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
+from skillwrapper.invention.inventor import Inventor
+from skillwrapper.invention.pruning import prune
+from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.certification import certify
-from skillwrapper.learning.dataset import Dataset
 from skillwrapper.learning.fitting import Fit, Fitter
-from skillwrapper.learning.invention import Inventor
-from skillwrapper.learning.pruning import prune
 from skillwrapper.learning.settings import LearningSettings
-from skillwrapper.learning.vocabulary import Vocabulary
 from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.dataset import Dataset
 
 
 def learn(seed: int, iterations: int = 10, budget: int = 30) -> Fit:

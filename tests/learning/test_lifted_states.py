@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from notebook import Notebook, instance, picture
 from random_worlds import DOMAIN, PREDICATES, QUICK
 
+from skillwrapper.grounding import TRUE, AtomSpace
 from skillwrapper.learning.lifted_states import is_lifted_state_known, lifted_state
-from skillwrapper.symbols import TRUE, AtomSpace
 from skillwrapper.world import Object
 
 SPACE = AtomSpace(PREDICATES, DOMAIN.objects)

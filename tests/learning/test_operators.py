@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from notebook import Notebook, atom, make_domain
 
-from skillwrapper.symbols import GroundModel, Literal, Operator, Predicate, Variable
+from skillwrapper.grounding import GroundModel
+from skillwrapper.symbols import Literal, Operator, Predicate, Variable
 
 ZOO = make_domain(
     types={

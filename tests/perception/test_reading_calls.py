@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from skillwrapper.grounding import AtomSpace
+from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.perception.reading_calls import ReadingCalls
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.symbols import AtomSpace, Predicate, all_groundings
-from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.symbols import Predicate, all_groundings
 from skillwrapper.world import Domain, Object, Observation, Picture, TypeHierarchy
 
 CUPS = tuple(Object(name, ("cup",)) for name in ("red", "blue", "green"))

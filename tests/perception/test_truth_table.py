@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from skillwrapper.errors import ModelUnavailableError
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace
+from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.perception.truth_table import TruthTable, encode_labels
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Atom, AtomSpace, Predicate, all_groundings
-from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world import Domain, Object, Observation, Picture, TypeHierarchy
 
 CUPS = tuple(Object(name, ("cup",)) for name in ("red", "blue", "green"))

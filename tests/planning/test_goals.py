@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from planning_kitchen import START, labels, space
 
 from skillwrapper.errors import GoalError, UnknownNameError
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.planning import goal_from_state, parse_goal
-from skillwrapper.symbols import AtomSpace, Literal, Predicate
+from skillwrapper.symbols import Literal, Predicate
 from skillwrapper.symbols.predicates import Atom
 
 WANTED = {

@@ -19,6 +19,8 @@ from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.errors import MissingDependencyError, UnknownNameError
+from skillwrapper.grounding import GroundModel
+from skillwrapper.grounding.ground import GroundConditionalEffect
 from skillwrapper.planning import (
     KStar,
     Planner,
@@ -29,8 +31,7 @@ from skillwrapper.planning import (
     parse_goal,
     write_pddl,
 )
-from skillwrapper.symbols import AbstractModel, GroundModel, Literal
-from skillwrapper.symbols.ground import GroundConditionalEffect
+from skillwrapper.symbols import AbstractModel, Literal
 from skillwrapper.symbols.pddl import print_domain, print_problem
 from skillwrapper.symbols.predicates import Atom
 from skillwrapper.world import Object, SkillInstance

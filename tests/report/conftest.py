@@ -4,9 +4,9 @@ import pytest
 
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.learning.settings import LearningSettings
-from skillwrapper.run.config import ModelSettings, RunConfig
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.run.learn import learn
+from skillwrapper.runs.config import ModelSettings, RunConfig
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.learn import learn
 
 
 @pytest.fixture(scope="session")

@@ -10,15 +10,15 @@ from outside_links import parse
 from typer.testing import CliRunner
 
 from skillwrapper.cli.main import app
-from skillwrapper.evaluation.causes import Cause
-from skillwrapper.evaluation.cells import RESULT, CellResult
-from skillwrapper.evaluation.experiment_folder import ExperimentFolder
-from skillwrapper.evaluation.experiments import Experiment, ProblemChoice
-from skillwrapper.evaluation.problems import Problem, ProblemClass
-from skillwrapper.evaluation.results import ProblemResult
+from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiments import Experiment, ProblemChoice
+from skillwrapper.evaluation.problems.causes import Cause
+from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
+from skillwrapper.evaluation.problems.results import ProblemResult
+from skillwrapper.files.writing import write_json
 from skillwrapper.report import render_experiment
 from skillwrapper.report.experiment_contents import ExperimentContents
-from skillwrapper.run.folder import write_json
 
 CURVE = [{"executions": 30 * n, "recall": 0.3 * n, "precision": 1.0} for n in (1, 2, 3)]
 

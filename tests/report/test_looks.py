@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from skillwrapper.report import write_report
-from skillwrapper.run.folder import RunFolder
+from skillwrapper.runs.folder import RunFolder
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 QUIET = (

@@ -7,9 +7,9 @@ from outside_links import parse
 
 from skillwrapper.errors import RunFolderError
 from skillwrapper.report import ReportSettings, render_report, write_report
-from skillwrapper.run.config import RunConfig
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.run.learned import LearnedRun
+from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.vlm.protocol import Role, Usage
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, StoredCall

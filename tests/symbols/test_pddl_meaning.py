@@ -11,14 +11,12 @@ from model_strategies import DOMAIN, models
 from unified_planning.engines.sequential_simulator import UPSequentialSimulator
 from unified_planning.io import PDDLReader
 
+from skillwrapper.grounding import TRUE, GroundModel, Labels
 from skillwrapper.symbols import (
-    TRUE,
     Absence,
     AbstractModel,
     Atom,
     ConditionalEffect,
-    GroundModel,
-    Labels,
     Literal,
     Operator,
     Predicate,

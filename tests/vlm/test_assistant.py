@@ -11,19 +11,16 @@ import pytest
 from scripted import ScriptedModel, section
 
 from skillwrapper.errors import ConfigurationError, ModelUnavailableError
+from skillwrapper.exploration.questions import ProposalQuestion
+from skillwrapper.invention.questions import BatchInventionQuestion, InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.perception.questions import EvaluationQuestion
+from skillwrapper.planning.questions import ActionQuestion
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.evaluation import majority
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelRequest, Role
-from skillwrapper.vlm.questions import (
-    ActionQuestion,
-    BatchInventionQuestion,
-    EvaluationQuestion,
-    InventionQuestion,
-    ProposalQuestion,
-)
 from skillwrapper.vlm.settings import AssistantSettings
 from skillwrapper.world import Domain, Observation, Picture, SkillInstance, Transition
 

@@ -19,6 +19,8 @@ import pytest
 from PIL import Image
 from scripted import ScriptedModel
 
+from skillwrapper.embedded.server import BLIND, SEEING, ServerSettings, VlmServer
+from skillwrapper.embedded.server_faults import Fault, FaultChooser, FaultPlan
 from skillwrapper.errors import (
     AuthenticationError,
     ConfigurationError,
@@ -34,8 +36,6 @@ from skillwrapper.vlm.pictures import PictureEncoder, scaled_down
 from skillwrapper.vlm.prices import LIST_PRICES, list_price
 from skillwrapper.vlm.protocol import ModelRequest, Role
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
-from skillwrapper.vlm.server import BLIND, SEEING, ServerSettings, VlmServer
-from skillwrapper.vlm.server_faults import Fault, FaultChooser, FaultPlan
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_model import StoredModel
 from skillwrapper.world import Picture, encode_png

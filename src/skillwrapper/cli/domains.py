@@ -10,12 +10,12 @@ import typer
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.run.folder import write_atomically
+from skillwrapper.files.writing import write_atomically
+from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import EnumerableEnvironment, Environment
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.skills import SkillInstance, parse_skill_instance
-from skillwrapper.yaml_files import YamlDocument
 
 
 def register(app: typer.Typer) -> None:

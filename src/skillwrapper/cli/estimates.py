@@ -5,7 +5,7 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from skillwrapper.run.estimate import Estimate
+from skillwrapper.runs.estimate import Estimate
 
 
 def print_estimate(estimate: Estimate, console: Console) -> None:

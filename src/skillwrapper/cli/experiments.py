@@ -15,15 +15,15 @@ from rich.table import Table as RichTable
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.experiment_folder import ExperimentFolder
-from skillwrapper.evaluation.experiments import read_experiment
-from skillwrapper.evaluation.methods import Cell
-from skillwrapper.evaluation.plots import plot_experiment
-from skillwrapper.evaluation.ray_workers import open_ray_workers
-from skillwrapper.evaluation.running import run_experiment
-from skillwrapper.evaluation.table_formats import to_csv, to_latex, to_markdown
-from skillwrapper.evaluation.tables import Report
-from skillwrapper.evaluation.workers import ERROR, CellOutcome, open_workers
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiments import read_experiment
+from skillwrapper.evaluation.benchmark.plots import plot_experiment
+from skillwrapper.evaluation.benchmark.ray_workers import open_ray_workers
+from skillwrapper.evaluation.benchmark.running import run_experiment
+from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
+from skillwrapper.evaluation.benchmark.tables import Report
+from skillwrapper.evaluation.benchmark.workers import ERROR, CellOutcome, open_workers
+from skillwrapper.evaluation.methods.method import Cell
 
 FolderArgument = Annotated[Path, typer.Argument(help="Folder of an experiment.")]
 

@@ -27,11 +27,11 @@ from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.progress import RunProgress
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.learning.settings import LearningSettings
-from skillwrapper.run.assistants import Spending, check_models
-from skillwrapper.run.config import ModelSettings, RunConfig
-from skillwrapper.run.estimate import estimate_run
-from skillwrapper.run.learn import learn as run_learning
-from skillwrapper.run.loop import LearningResult
+from skillwrapper.runs.assistants import Spending, check_models
+from skillwrapper.runs.config import ModelSettings, RunConfig
+from skillwrapper.runs.estimate import estimate_run
+from skillwrapper.runs.learn import learn as run_learning
+from skillwrapper.runs.loop import LearningResult
 from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.settings import AssistantSettings
 

@@ -13,13 +13,13 @@ from rich.table import Table
 
 from skillwrapper.cli.model_options import BaseUrlOption, PromptsOption
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.run.config import ModelSettings
-from skillwrapper.run.doctor import examine
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.vlm.embedded import EmbeddedModel
+from skillwrapper.embedded import EmbeddedModel
+from skillwrapper.embedded.server import ServerSettings, VlmServer
+from skillwrapper.embedded.server_faults import FaultPlan
+from skillwrapper.runs.config import ModelSettings
+from skillwrapper.runs.doctor import examine
+from skillwrapper.runs.folder import RunFolder
 from skillwrapper.vlm.protocol import Role
-from skillwrapper.vlm.server import ServerSettings, VlmServer
-from skillwrapper.vlm.server_faults import FaultPlan
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, CallTotals, StoredCall
 

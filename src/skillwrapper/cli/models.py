@@ -10,8 +10,8 @@ from rich.table import Table
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.verification import print_curve, print_verification, run_verification
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.run.learned import LearnedRun
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.symbols.describe import describe_operator
 from skillwrapper.symbols.pddl import print_domain
 

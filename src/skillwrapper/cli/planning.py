@@ -10,16 +10,16 @@ import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.domains.registry import make_environment
+from skillwrapper.grounding import TRUE, AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.planning.execution import ExecutionReport, attempt
 from skillwrapper.planning.gif import save_gif
 from skillwrapper.planning.goals import Goal, goal_from_state, parse_goal
 from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.planning.result import PlanningResult, PlanningStatus
-from skillwrapper.run.assistants import open_assistant
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.run.learned import LearnedRun
-from skillwrapper.symbols import TRUE, AtomSpace
+from skillwrapper.runs.assistants import open_assistant
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation, load_picture
 

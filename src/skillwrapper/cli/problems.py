@@ -11,9 +11,9 @@ from rich.table import Table
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.problem_generator import ProblemGenerator
-from skillwrapper.evaluation.problems import ProblemSet
-from skillwrapper.evaluation.references import reference_of
+from skillwrapper.evaluation.exact.references import reference_of
+from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
+from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.world.environment import EnumerableEnvironment
 
 

@@ -12,9 +12,9 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from skillwrapper.run.assistants import Session
-from skillwrapper.run.events import EventKind, RunEvent
-from skillwrapper.run.learn import Onlooker
+from skillwrapper.runs.assistants import Session
+from skillwrapper.runs.events import EventKind, RunEvent
+from skillwrapper.runs.learn import Onlooker
 
 _SHOWN_DECISIONS = 8
 _MARKS = {

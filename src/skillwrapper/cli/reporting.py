@@ -8,9 +8,9 @@ from typing import Annotated
 import typer
 
 from skillwrapper.cli.output import JsonFlag, print_json, results
-from skillwrapper.evaluation.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.report import ReportSettings, write_experiment_report, write_report
-from skillwrapper.run.folder import RunFolder
+from skillwrapper.runs.folder import RunFolder
 
 
 def register(app: typer.Typer) -> None:

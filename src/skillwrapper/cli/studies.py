@@ -21,7 +21,7 @@ from skillwrapper.evaluation.study.tables import (
     invention_tables,
     perception_tables,
 )
-from skillwrapper.run.folder import write_atomically
+from skillwrapper.files.writing import write_atomically
 
 ModelsOption = Annotated[
     list[str] | None,

@@ -11,19 +11,19 @@ from rich.table import Table
 
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.learning_curves import (
+from skillwrapper.evaluation.exact.learning_curves import (
     CurvePoint,
     area_under,
     learning_curve,
     read_stages,
     write_curve,
 )
-from skillwrapper.evaluation.state_truth import TRUTH_LAYOUT, StateTruth
-from skillwrapper.evaluation.verification import Verification, verify_labels
+from skillwrapper.evaluation.exact.state_truth import TRUTH_LAYOUT, StateTruth
+from skillwrapper.evaluation.exact.verification import Verification, verify_labels
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.run.assistants import open_assistant
-from skillwrapper.run.learned import LearnedRun
-from skillwrapper.symbols import AtomSpace
+from skillwrapper.runs.assistants import open_assistant
+from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.world.environment import EnumerableEnvironment
 
 _CURVE_COLUMNS = (

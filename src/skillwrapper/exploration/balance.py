@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from skillwrapper.symbols import GroundModel, Labels
+from skillwrapper.grounding import GroundModel, Labels
 from skillwrapper.world.skills import SkillInstance
 
 

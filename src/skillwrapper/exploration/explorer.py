@@ -13,12 +13,13 @@ import numpy as np
 from skillwrapper.exploration.balance import balance
 from skillwrapper.exploration.coverage import PairCounts
 from skillwrapper.exploration.pareto import pareto_set
+from skillwrapper.exploration.questions import ProposalAnswer, ProposalQuestion
 from skillwrapper.exploration.repair import random_sequence, repair_sequence
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.symbols import AbstractModel, GroundModel, Labels
+from skillwrapper.grounding import GroundModel, Labels
+from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.describe import describe_operator
 from skillwrapper.symbols.operators import Condition
-from skillwrapper.vlm.questions import ProposalAnswer, ProposalQuestion
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Episode
 from skillwrapper.world.observation import Observation

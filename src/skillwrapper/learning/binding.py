@@ -1,6 +1,6 @@
 """Operators bound to the objects of recorded skill instances, all bindings at once as arrays.
 
-The same meaning as ``symbols.ground``, which binds one after the other to objects of any kind:
+The same meaning as ``grounding.ground``, which binds one after the other to objects of any kind:
 here only bindings are made whose skill instance was executed, and applied to its transitions.
 """
 
@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.learning.data import SkillTable
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Atom, ConditionalEffect, Labels, Operator
-from skillwrapper.symbols.atom_index import ANY, AtomPatterns, Columns, taken_objects
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, Labels
+from skillwrapper.grounding.atom_index import ANY, AtomPatterns, Columns, taken_objects
+from skillwrapper.symbols import Atom, ConditionalEffect, Operator
 from skillwrapper.symbols.operators import Variable
+from skillwrapper.transitions.tables import SkillTable
 
 _BLOCK = 8192
 """So many pairs of a binding and a transition are looked at together, to bound the memory."""

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.grounding import FALSE
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.lifted_states import LiftedState, is_lifted_state_known, lifted_state
-from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.predictions import TablePrediction
-from skillwrapper.symbols import FALSE
+from skillwrapper.transitions.lifting import LiftedChange
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.learning.data import Group, SkillData, SkillTable
-from skillwrapper.learning.lifting import LiftedChange
-from skillwrapper.symbols import Labels
-from skillwrapper.symbols.atom_index import Columns, taken_objects
+from skillwrapper.grounding import Labels
+from skillwrapper.grounding.atom_index import Columns, taken_objects
+from skillwrapper.transitions.lifting import LiftedChange
+from skillwrapper.transitions.tables import Group, SkillData, SkillTable
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,20 +19,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.grounding import TRUE
+from skillwrapper.grounding.atom_index import ANY, Columns, LiftedAtom, taken_objects
 from skillwrapper.learning.clusters import Bundle, Cluster, bundle_groups
-from skillwrapper.learning.data import Group
-from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.operators import LearnedOperator, operator_of
-from skillwrapper.symbols import (
-    TRUE,
-    Atom,
-    ConditionalEffect,
-    Literal,
-    Operator,
-    Predicate,
-    Variable,
-)
-from skillwrapper.symbols.atom_index import ANY, Columns, LiftedAtom, taken_objects
+from skillwrapper.symbols import Atom, ConditionalEffect, Literal, Operator, Predicate, Variable
+from skillwrapper.transitions.lifting import LiftedChange
+from skillwrapper.transitions.tables import Group
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 

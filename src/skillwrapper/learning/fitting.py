@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from skillwrapper.learning.data import SkillData
-from skillwrapper.learning.dataset import Dataset, Reading, TruthSource
+from skillwrapper.grounding import FALSE, TRUE
 from skillwrapper.learning.inconsistencies import (
     Inconsistency,
     Witness,
@@ -21,7 +20,9 @@ from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.learning.remedies import learn_deterministic_operators
-from skillwrapper.symbols import FALSE, TRUE, AbstractModel, Predicate
+from skillwrapper.symbols import AbstractModel, Predicate
+from skillwrapper.transitions.dataset import Dataset, Reading, TruthSource
+from skillwrapper.transitions.tables import SkillData
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from skillwrapper.grounding import TRUE, UNKNOWN
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
-from skillwrapper.learning.lifting import LiftedChange
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
-from skillwrapper.symbols import TRUE, UNKNOWN, Atom
+from skillwrapper.symbols import Atom
+from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.world.skills import SkillInstance
 
 Witness = tuple[InconsistencyKind, str, int]

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from skillwrapper.symbols import TRUE, UNKNOWN, Atom, AtomSpace, Labels
+from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
+from skillwrapper.symbols import Atom
 from skillwrapper.world.skills import SkillInstance
 
 LiftedState = tuple[object, ...]

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from skillwrapper.grounding.atom_index import ANY, LiftedAtom
 from skillwrapper.learning.clusters import Cluster, cluster_successes
-from skillwrapper.learning.data import Group, SkillData
 from skillwrapper.learning.preconditions import (
     Evidence,
     ExistentialContext,
     gather_evidence,
 )
 from skillwrapper.symbols import Absence, Atom, Literal, Operator, Predicate, Variable
-from skillwrapper.symbols.atom_index import ANY, LiftedAtom
+from skillwrapper.transitions.tables import Group, SkillData
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 

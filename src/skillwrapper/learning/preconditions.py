@@ -20,10 +20,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.grounding import FALSE, TRUE
+from skillwrapper.grounding.atom_index import ANY, LiftedAtom
 from skillwrapper.learning.clusters import Bundle, bundle_groups
-from skillwrapper.learning.data import NO_LABEL, Group
-from skillwrapper.symbols import FALSE, TRUE, Predicate
-from skillwrapper.symbols.atom_index import ANY, LiftedAtom
+from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.tables import NO_LABEL, Group
 
 _Witnesses = list[NDArray[np.bool_]]
 """For every table the objects of the scene (rows, objects) that an existential context may be."""

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, Labels
 from skillwrapper.learning.binding import BoundOperator, bind_operator
-from skillwrapper.learning.data import SkillData, SkillTable
 from skillwrapper.learning.operators import LearnedOperator
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Labels
+from skillwrapper.transitions.tables import SkillData, SkillTable
 
 
 @dataclass(frozen=True, eq=False)

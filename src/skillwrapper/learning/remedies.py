@@ -12,15 +12,16 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from skillwrapper.grounding import TRUE
 from skillwrapper.learning.clusters import Cluster
 from skillwrapper.learning.conditional_effects import (
     cluster_by_core,
     learn_with_conditional_effects,
 )
-from skillwrapper.learning.data import Group, SkillData
 from skillwrapper.learning.operators import LearnedOperator, learn_operators, operator_of
 from skillwrapper.learning.predictions import Predictor, TablePrediction
-from skillwrapper.symbols import TRUE, Predicate
+from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.tables import Group, SkillData
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 

@@ -14,11 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
+from skillwrapper.grounding.ground import absent_atoms
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, AtomSpace, Labels, Operator, Variable
-from skillwrapper.symbols.ground import absent_atoms
+from skillwrapper.symbols import Operator, Variable
 from skillwrapper.symbols.operators import Condition
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import SkillInstance

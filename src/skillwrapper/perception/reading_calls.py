@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.symbols import AtomSpace
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.types import Object
 

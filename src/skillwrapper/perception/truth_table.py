@@ -9,8 +9,9 @@ from typing import Protocol
 
 import numpy as np
 
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Atom, AtomSpace, Labels, Predicate
-from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
+from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.types import Object

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from skillwrapper.grounding.ground import GroundModel, Labels
 from skillwrapper.planning.kstar import KStar, SearchOutcome
 from skillwrapper.planning.problem import PlanningProblem
 from skillwrapper.planning.problem_pddl import write_pddl
 from skillwrapper.planning.result import PlanningResult, PlanningStatus, SkillPlan
-from skillwrapper.symbols.ground import GroundModel, Labels
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.symbols.predicates import Literal
 from skillwrapper.world.types import Object

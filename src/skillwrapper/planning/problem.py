@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillwrapper.errors import UnknownNameError
-from skillwrapper.symbols.ground import (
+from skillwrapper.grounding.ground import (
     FALSE,
     TRUE,
     UNKNOWN,

@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from skillwrapper.grounding.ground import TRUE, GroundOperator
 from skillwrapper.planning.problem import FINISH, PlanningProblem, action_name
-from skillwrapper.symbols.ground import TRUE, GroundOperator
 from skillwrapper.symbols.pddl_names import unique_names
 
 _OPEN, _DONE = "open", "done"

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from skillwrapper.grounding.ground import TRUE, GroundOperator
 from skillwrapper.planning.problem import FINISH, PlanningProblem, action_name
-from skillwrapper.symbols.ground import TRUE, GroundOperator
 
 _HOLDS, _FAILS = 0, 1
 _STAGE, _OPEN, _DONE = 0, 1, 0

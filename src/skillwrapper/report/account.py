@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from skillwrapper.run.folder import RunFolder
+from skillwrapper.runs.folder import RunFolder
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallTotals
 

@@ -9,7 +9,8 @@ from typing import Any
 
 import yaml
 
-from skillwrapper.evaluation.learning_curves import EXACT_CURVE
+from skillwrapper.evaluation.exact.learning_curves import EXACT_CURVE
+from skillwrapper.files.writing import read_lines
 from skillwrapper.report.account import CallAccount, read_account
 from skillwrapper.report.charts import LineChart
 from skillwrapper.report.curves import learning_charts
@@ -23,9 +24,9 @@ from skillwrapper.report.views import (
     view_skills,
     view_violations,
 )
-from skillwrapper.run.config import RunConfig
-from skillwrapper.run.folder import CONFIG, RunFolder, read_lines
-from skillwrapper.run.learned import LearnedRun
+from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.folder import CONFIG, RunFolder
+from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.pddl import print_domain
 

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from statistics import fmean
 
-from skillwrapper.baselines.registry import METHODS
-from skillwrapper.evaluation.cells import CellResult
-from skillwrapper.evaluation.experiment_folder import ExperimentFolder
-from skillwrapper.evaluation.experiments import Experiment
-from skillwrapper.evaluation.figures import group_cells
-from skillwrapper.evaluation.problems import Problem
-from skillwrapper.evaluation.tables import Report, Table
+from skillwrapper.evaluation.benchmark.cells import CellResult
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiments import Experiment
+from skillwrapper.evaluation.benchmark.figures import group_cells
+from skillwrapper.evaluation.benchmark.tables import Report, Table
+from skillwrapper.evaluation.methods.registry import METHODS
+from skillwrapper.evaluation.problems.problems import Problem
 from skillwrapper.report.charts import LineChart, Series
 
 _LONGEST_DETAIL = 240

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillwrapper.evaluation.experiment_folder import ExperimentFolder, enumerable_environment
+from skillwrapper.evaluation.benchmark.experiment_folder import (
+    ExperimentFolder,
+    enumerable_environment,
+)
+from skillwrapper.files.writing import write_atomically
 from skillwrapper.report.experiment_contents import ExperimentContents, ProblemCases
 from skillwrapper.report.page import page_environment
 from skillwrapper.report.pictures import Thumbnails
-from skillwrapper.run.folder import write_atomically
 from skillwrapper.world.environment import EnumerableEnvironment
 
 _PICTURE_WIDTH = 200

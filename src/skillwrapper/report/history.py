@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.errors import RunFolderError
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.run.recorder import read_episode
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.recorder import read_episode
 from skillwrapper.world.episode import Episode, Transition
 
 

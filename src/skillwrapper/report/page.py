@@ -9,9 +9,10 @@ from pathlib import Path
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from skillwrapper.files.writing import write_atomically
 from skillwrapper.report.contents import ReportContents
 from skillwrapper.report.pictures import PictureBook
-from skillwrapper.run.folder import RunFolder, write_atomically
+from skillwrapper.runs.folder import RunFolder
 
 _TEMPLATES = "report/templates"
 

@@ -10,11 +10,11 @@ import yaml
 from pydantic import BaseModel, ConfigDict
 
 from skillwrapper.errors import ConfigurationError, SymbolError, UnknownNameError, UserError
+from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator, Variable
 from skillwrapper.symbols.predicates import Atom, Literal, Predicate
 from skillwrapper.world.domain import Domain
-from skillwrapper.yaml_files import YamlDocument
 
 
 class _Entry(BaseModel):

@@ -6,6 +6,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol, TypeVar
 
+from skillwrapper.exploration.questions import ProposalAnswer, ProposalQuestion
+from skillwrapper.invention.questions import (
+    BatchInventionQuestion,
+    InventionAnswer,
+    InventionQuestion,
+)
+from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
+from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
 from skillwrapper.symbols.predicates import Predicate
 from skillwrapper.vlm.evaluation import Evaluator
 from skillwrapper.vlm.models import ModelSet
@@ -18,17 +26,6 @@ from skillwrapper.vlm.parsing import (
 )
 from skillwrapper.vlm.prompt_library import PromptLibrary
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
-from skillwrapper.vlm.questions import (
-    ActionAnswer,
-    ActionQuestion,
-    BatchInventionQuestion,
-    EvaluationAnswer,
-    EvaluationQuestion,
-    InventionAnswer,
-    InventionQuestion,
-    ProposalAnswer,
-    ProposalQuestion,
-)
 from skillwrapper.vlm.requests import RequestBuilder, Slot, allowed_slots, batch_slots
 from skillwrapper.vlm.settings import AssistantSettings
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.symbols.predicates import Atom, Predicate, all_groundings
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.parsing import parse_labels
 from skillwrapper.vlm.parsing.names import fold
 from skillwrapper.vlm.protocol import ModelRequest
-from skillwrapper.vlm.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.vlm.requests import RequestBuilder
 from skillwrapper.vlm.settings import AssistantSettings
 from skillwrapper.vlm.waves import run_wave

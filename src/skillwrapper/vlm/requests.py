@@ -6,17 +6,14 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from skillwrapper.exploration.questions import ProposalQuestion
+from skillwrapper.invention.questions import BatchInventionQuestion, InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.perception.questions import EvaluationQuestion
+from skillwrapper.planning.questions import ActionQuestion
 from skillwrapper.symbols.predicates import Atom, Predicate
 from skillwrapper.vlm.prompt_library import PromptKind, PromptLibrary
 from skillwrapper.vlm.protocol import ModelRequest, Role
-from skillwrapper.vlm.questions import (
-    ActionQuestion,
-    BatchInventionQuestion,
-    EvaluationQuestion,
-    InventionQuestion,
-    ProposalQuestion,
-)
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.observation import Observation, Picture
 

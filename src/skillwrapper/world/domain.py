@@ -9,9 +9,9 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, Field
 
 from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
 from skillwrapper.world.types import Object, TypeHierarchy
-from skillwrapper.yaml_files import YamlDocument
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from skillwrapper.evaluation.study.scoring import mean_accuracy, score_predicate
 from skillwrapper.evaluation.study.subjects import subject_of
 from skillwrapper.evaluation.study.tables import EMBEDDED_NOTE, perception_tables
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.run.config import RunConfig
-from skillwrapper.run.learn import learn
+from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.learn import learn
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.world.types import Object

@@ -10,14 +10,14 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.evaluation.study.subjects import parse_atom
+from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.invention.questions import InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import AbstractModel, Atom, Predicate
-from skillwrapper.vlm.questions import InventionQuestion
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.skills import parse_skill_instance
-from skillwrapper.yaml_files import YamlDocument
 
 
 @dataclass(frozen=True)

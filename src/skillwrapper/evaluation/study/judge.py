@@ -9,7 +9,7 @@ import numpy as np
 
 from skillwrapper.domains.registry import make_environment
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.references import reference_of
+from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.study.meaning import (
     Columns,
     Meaning,
@@ -17,8 +17,9 @@ from skillwrapper.evaluation.study.meaning import (
     target_columns,
 )
 from skillwrapper.evaluation.study.models import truthful_assistant
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.symbols import Atom, AtomSpace, Predicate
+from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.world.environment import EnumerableEnvironment
 
 _LAYOUT = 424_242

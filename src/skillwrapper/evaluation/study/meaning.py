@@ -8,7 +8,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from skillwrapper.symbols import FALSE, TRUE, UNKNOWN, Atom, Labels, Predicate
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, Labels
+from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.world.types import Object
 
 Columns = Mapping[tuple[str, ...], Labels]

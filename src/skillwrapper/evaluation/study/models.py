@@ -7,10 +7,10 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from skillwrapper.run.assistants import EMBEDDED, make_model
-from skillwrapper.run.config import ModelSettings
+from skillwrapper.embedded.model import EmbeddedModel
+from skillwrapper.runs.assistants import EMBEDDED, make_model
+from skillwrapper.runs.config import ModelSettings
 from skillwrapper.vlm.assistant import Assistant
-from skillwrapper.vlm.embedded.model import EmbeddedModel
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
 from skillwrapper.vlm.recorded_model import RecordedModel

@@ -15,8 +15,8 @@ from skillwrapper.evaluation.study.scoring import (
     score_predicate,
 )
 from skillwrapper.evaluation.study.subjects import Sample, Subject
+from skillwrapper.perception.questions import EvaluationQuestion
 from skillwrapper.vlm.assistant import Assistant
-from skillwrapper.vlm.questions import EvaluationQuestion
 
 
 @dataclass(frozen=True)

@@ -12,20 +12,20 @@ from typing import Any
 
 from skillwrapper.domains.registry import domain_names, make_environment
 from skillwrapper.errors import ConfigurationError, UnknownNameError
-from skillwrapper.evaluation.references import reference_of
+from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.study.conditions import Condition
 from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.evaluation.study.scoring import Readings
-from skillwrapper.run.config import RunConfig
-from skillwrapper.run.folder import RunFolder
-from skillwrapper.run.learned import LearnedRun
+from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.perception.questions import EvaluationQuestion
+from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.symbols import Atom, Predicate, all_groundings
-from skillwrapper.vlm.questions import EvaluationQuestion
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.observation import Observation, load_picture
 from skillwrapper.world.types import Object
-from skillwrapper.yaml_files import YamlDocument
 
 _ATOM = re.compile(r"\s*([A-Za-z][\w-]*)\s*(?:\(([^()]*)\))?\s*")
 _LAYOUT = 424_242

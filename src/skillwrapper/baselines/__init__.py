@@ -1,1 +1,0 @@
-"""The methods that skillwrapper is compared with."""

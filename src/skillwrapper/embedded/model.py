@@ -1,0 +1,130 @@
+"""The embedded model: a stand-in for a vision-language model, behind the same protocol."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+
+from skillwrapper.embedded.acting import plan_actions
+from skillwrapper.embedded.chance import Chance
+from skillwrapper.embedded.inventing import invent, invent_vocabulary
+from skillwrapper.embedded.judging import judge_picture, summarise
+from skillwrapper.embedded.noise import NO_NOISE, Judgement, NoiseProfile
+from skillwrapper.embedded.prompt_text import PromptText
+from skillwrapper.embedded.sequencing import propose_sequences
+from skillwrapper.embedded.sight import (
+    BUNDLED_READERS,
+    Eye,
+    SceneReader,
+    Sight,
+    Sights,
+    sight_at,
+)
+from skillwrapper.embedded.spoiling import spoil
+from skillwrapper.errors import ModelUnavailableError
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage
+from skillwrapper.world.observation import Picture
+
+_ASKED_AGAIN = "\n\nThis is asked again (time "
+_MOST_TIMEOUTS = 12
+_CHARACTERS_PER_TOKEN = 4
+_TOKENS_PER_PICTURE = 765
+_VERSION = 2
+"""Raised when replies change, so that stored replies of older versions are not served."""
+
+
+class EmbeddedModel:
+    """Answers prompts by looking at pixels (DESIGN.md section 6).
+
+    It gets the rendered prompt and PNG bytes and nothing else: neither the role of the request
+    nor its repetition number, so that it answers alike behind an HTTP server. The same seed,
+    prompt and pictures give the same reply. It is for trying, testing and simulation studies.
+
+    Args:
+        seed: what chance depends on, besides the prompt.
+        noise: what goes wrong; nothing by default.
+        readers: scene readers, for domains that are not bundled.
+    """
+
+    def __init__(
+        self,
+        seed: int = 0,
+        noise: NoiseProfile | None = None,
+        readers: Sequence[SceneReader] = BUNDLED_READERS,
+    ) -> None:
+        self._seed, self._noise = seed, noise or NO_NOISE
+        self._eye = Eye(readers)
+        self._judgement = Judgement(self._noise, seed)
+
+    @property
+    def name(self) -> str:
+        """Provider and model."""
+        return "embedded"
+
+    @property
+    def parameters(self) -> Mapping[str, str | int | float | bool]:
+        """Everything that changes replies."""
+        return {"seed": self._seed, "noise": self._noise.name, "version": _VERSION}
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        """Answer a prompt.
+
+        Raises:
+            ModelUnavailableError: if the noise profile lets every attempt time out.
+        """
+        began = time.perf_counter()
+        pictures = [picture.sha256 for picture in request.pictures]
+        # Who asks again, because a reply got lost on the way, is told the same once more.
+        question = request.prompt.partition(_ASKED_AGAIN)[0]
+        chance = Chance(self._seed, question, *pictures)
+        text = self._answer(PromptText.of(question), request.pictures, chance)
+        if self._noise is not NO_NOISE:
+            mishaps = Chance(self._seed, "mishaps", request.prompt, *pictures)
+            self._wait_out(mishaps)
+            text = spoil(text, self._noise, mishaps)
+        return ModelReply(text, _usage(request, text, time.perf_counter() - began))
+
+    def _wait_out(self, chance: Chance) -> None:
+        """Timeouts are only counted, not waited for."""
+        for _ in range(_MOST_TIMEOUTS):
+            if not chance.happens(self._noise.timeouts):
+                return
+        raise ModelUnavailableError(f"embedded model: {_MOST_TIMEOUTS} attempts timed out")
+
+    def _answer(self, prompt: PromptText, pictures: Sequence[Picture], chance: Chance) -> str:
+        """What a prompt asks for is told by its sections, so that users may reword it."""
+        if "Text" in prompt:
+            return summarise(prompt)
+        sights = [self._eye.look(picture.png, picture.sha256) for picture in pictures]
+        if "Least explored pairs" in prompt:
+            return propose_sequences(prompt, _first(sights), self._judgement, chance)
+        if "Statements" in prompt:
+            return judge_picture(prompt, _first(sights), self._judgement, chance)
+        if "Run so far" in prompt:
+            return plan_actions(prompt, *_now_and_goal(prompt, sights), self._judgement, chance)
+        if "Allowed parameters" in prompt:
+            inventor = invent if "Executions" in prompt else invent_vocabulary
+            return inventor(prompt, sights, self._judgement, chance)
+        return "I can only answer prompts with the sections of the bundled templates."
+
+
+def _now_and_goal(prompt: PromptText, sights: Sights) -> tuple[Sight | None, Sight | None]:
+    return (
+        sight_at(sights, prompt.captions.get("now")),
+        sight_at(sights, prompt.captions.get("the goal")),
+    )
+
+
+def _first(sights: Sights) -> Sight | None:
+    return next((sight for sight in sights if sight is not None), None)
+
+
+def _usage(request: ModelRequest, reply: str, seconds: float) -> Usage:
+    """Tokens as a hosted model would count them, roughly; for nothing."""
+    prompt = len(request.system) + len(request.prompt)
+    return Usage(
+        input_tokens=prompt // _CHARACTERS_PER_TOKEN + _TOKENS_PER_PICTURE * len(request.pictures),
+        output_tokens=len(reply) // _CHARACTERS_PER_TOKEN,
+        cost=0.0,
+        seconds=seconds,
+    )

@@ -1,0 +1,1 @@
+"""Experiments: many runs of many methods, their figures and tables."""

@@ -1,0 +1,84 @@
+"""Exploration efficiency: what the executions of a learning method were worth.
+
+The paper says that such a metric is missing. Ours: how much of the exact model is known after how
+many executions, how many executions taught anything, how many pairs of skills were tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from skillwrapper.evaluation.exact.learning_curves import CurvePoint, area_under, learning_curve
+from skillwrapper.evaluation.exact.state_truth import StateTruth
+from skillwrapper.evaluation.methods.method import Prepared
+from skillwrapper.exploration.coverage import PairCounts
+from skillwrapper.learning.operators import learn_operators
+from skillwrapper.symbols import Operator, Predicate
+from skillwrapper.transitions.dataset import Dataset, Reading, TruthSource
+from skillwrapper.world.domain import Domain
+
+
+@dataclass(frozen=True)
+class Efficiency:
+    """What executions were worth.
+
+    Attributes:
+        curve: a point for every iteration.
+        area: area under recall over executions, as a share of what an all-knowing learner has;
+            recall is 0 before the first iteration ends, and constant between two ends.
+        changing: share of executions after which relearning, with the final vocabulary, gives
+            other operators than before.
+        pairs_covered: share of pairs of skill instances that were tried one after the other.
+    """
+
+    curve: tuple[CurvePoint, ...]
+    area: float
+    changing: float
+    pairs_covered: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data with the attributes as keys."""
+        return {**vars(self), "curve": [vars(point) for point in self.curve]}
+
+
+def efficiency_of(prepared: Prepared, truth: StateTruth) -> Efficiency | None:
+    """The efficiency of a method; None for one that executes nothing to learn."""
+    if not prepared.episodes or prepared.label_all is None or prepared.recorded is None:
+        return None
+    curve = learning_curve(prepared.stages, truth.space, prepared.label_all)
+    domain = truth.environment.domain
+    vocabulary = prepared.stages[-1].model.predicates
+    pairs = PairCounts(domain.skill_instances)
+    for episode in prepared.episodes:
+        pairs.add(t.instance for t in episode.transitions)
+    return Efficiency(
+        curve=curve,
+        area=area_under([(p.executions, p.recall) for p in curve]),
+        changing=share_changing(domain, prepared, prepared.recorded, vocabulary),
+        pairs_covered=pairs.share_covered(),
+    )
+
+
+def share_changing(
+    domain: Domain, prepared: Prepared, recorded: TruthSource, predicates: Sequence[Predicate]
+) -> float:
+    """Share of executions that change what is learned with the final vocabulary.
+
+    Operators are learned as they are before they are mended (DESIGN.md D5): mending looks at all
+    predictions, which takes too long after every single execution.
+    """
+    dataset, changes = Dataset(domain), 0
+    reading = Reading(dataset, recorded)
+    known: dict[str, tuple[Operator, ...]] = {}
+    for episode in prepared.episodes:
+        for transition in episode.transitions:
+            dataset.add(replace(episode, transitions=(transition,)))
+            skill = domain.skill_by_name[transition.instance.skill]
+            data = reading.skill_data(skill.name, predicates)
+            found = learn_operators(domain, skill, data, predicates, absences=prepared.absences)
+            learned = tuple(o.operator for o in found)
+            changes += learned != known.get(skill.name, ())
+            known[skill.name] = learned
+    return changes / len(dataset) if len(dataset) else 0.0

@@ -1,0 +1,189 @@
+"""The folder of an experiment's results.
+
+experiment.yaml         what was asked for, with versions and commit
+problems/burger.yaml    the problems that are solved
+runs.jsonl              every command that ran cells, with versions and commit
+cells/<cell>/           result.json, problems.jsonl, run/ (like any other run), error.txt
+truth/                  labels of predicates in all states, shared by all cells
+"""
+
+from __future__ import annotations
+
+import fcntl
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+from skillwrapper.domains.registry import make_environment
+from skillwrapper.errors import ConfigurationError, RunFolderError
+from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
+from skillwrapper.evaluation.benchmark.experiments import Experiment
+from skillwrapper.evaluation.benchmark.origins import Origin
+from skillwrapper.evaluation.exact.references import reference_of
+from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.problems.problems import ProblemSet, read_problems
+from skillwrapper.files.writing import append_line, read_lines, write_atomically
+from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.runs.provenance import provenance
+from skillwrapper.world.environment import EnumerableEnvironment
+
+_EXPERIMENT = "experiment.yaml"
+_RUNS = "runs.jsonl"
+_LOCK = ".lock"
+
+
+@dataclass(frozen=True)
+class ExperimentFolder:
+    """The folder of one experiment.
+
+    Attributes:
+        path: where it is.
+    """
+
+    path: Path
+
+    @classmethod
+    def create_or_resume(cls, path: Path, experiment: Experiment) -> ExperimentFolder:
+        """A new folder, or the folder of the same experiment.
+
+        Raises:
+            RunFolderError: if the path holds something else, or another experiment.
+        """
+        folder = cls(path)
+        sets = {name: _choose(experiment, name) for name in experiment.domains}
+        if cls.is_one(path):
+            folder._compare(experiment, sets)
+            return folder
+        if path.exists() and (not path.is_dir() or any(path.iterdir())):
+            raise RunFolderError(
+                f"{path} is not empty and holds no experiment; choose another --out, "
+                "nothing was changed"
+            )
+        for name, problems in sets.items():
+            problems.write(folder.problem_file(name))
+        content = {"experiment": experiment.model_dump(mode="json"), "made_with": provenance()}
+        write_atomically(path / _EXPERIMENT, yaml.safe_dump(content, sort_keys=False))
+        return folder
+
+    @classmethod
+    def open(cls, path: Path) -> ExperimentFolder:
+        """The folder of an existing experiment.
+
+        Raises:
+            RunFolderError: if there is none.
+        """
+        if not cls.is_one(path):
+            raise RunFolderError(
+                f"{path}: expected the folder of an experiment (with {_EXPERIMENT}); "
+                "make one with: skillwrapper experiment run FILE --out DIR"
+            )
+        return cls(path)
+
+    @staticmethod
+    def is_one(path: Path) -> bool:
+        """Whether a path is the folder of an experiment."""
+        return (path / _EXPERIMENT).is_file()
+
+    def experiment(self) -> Experiment:
+        """What was asked for.
+
+        Raises:
+            ConfigurationError: if the file was damaged.
+        """
+        document = YamlDocument.read(self.path / _EXPERIMENT)
+        inner = document.data.get("experiment") if isinstance(document.data, dict) else None
+        return YamlDocument(document.path, inner, None).validate(Experiment)
+
+    def note_run(self, command: str) -> None:
+        """Note that a command runs what is not finished yet, and with which code."""
+        if any(not self.is_finished(cell) for cell in self.experiment().cells):
+            append_line(self.path / _RUNS, {"command": command, "made_with": provenance()})
+
+    def runs(self) -> tuple[Origin, ...]:
+        """The commands that ran cells, in order of time."""
+        lines = read_lines(self.path / _RUNS)
+        return tuple(Origin(line["command"], line["made_with"]) for line in lines)
+
+    def problem_file(self, domain: str) -> Path:
+        """Where the problems of a domain stand."""
+        return self.path / "problems" / f"{domain}.yaml"
+
+    def problems(self, domain: str) -> ProblemSet:
+        """The problems of a domain."""
+        return read_problems(self.problem_file(domain), enumerable_environment(domain))
+
+    def cell(self, cell: Cell) -> Path:
+        """The folder of a cell."""
+        return self.path / "cells" / cell.name
+
+    @property
+    def truth(self) -> Path:
+        """Where labels of all states are kept."""
+        return self.path / "truth"
+
+    def is_finished(self, cell: Cell) -> bool:
+        """Whether a cell has its result."""
+        return (self.cell(cell) / RESULT).is_file()
+
+    def results(self) -> Iterator[CellResult]:
+        """The results of all finished cells, in the order of the experiment."""
+        for cell in self.experiment().cells:
+            if self.is_finished(cell):
+                yield CellResult.read(self.cell(cell))
+
+    @contextmanager
+    def reserved(self) -> Iterator[None]:
+        """Keep others from running the same experiment here; ends with the process at the latest.
+
+        Raises:
+            RunFolderError: if another process is at it.
+        """
+        with (self.path / _LOCK).open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError as error:
+                raise RunFolderError(
+                    f"{self.path}: another process is running this experiment; wait for it, "
+                    "or choose another --out"
+                ) from error
+            yield
+
+    def _compare(self, experiment: Experiment, sets: dict[str, ProblemSet]) -> None:
+        mine = self.experiment().model_dump(mode="json")
+        theirs = experiment.model_dump(mode="json")
+        differing = [key for key in mine if mine[key] != theirs[key]]
+        differing = [key for key in differing if key not in {"name", "description"}]
+        if differing:
+            key = differing[0]
+            raise RunFolderError(
+                f"{self.path} holds another experiment ({key}: {mine[key]!r} there, "
+                f"{theirs[key]!r} now); choose another --out"
+            )
+        for name, problems in sets.items():
+            if self.problems(name) != problems:
+                raise RunFolderError(
+                    f"{self.path} holds another experiment (other problems of {name}); "
+                    "choose another --out"
+                )
+
+
+def enumerable_environment(domain: str) -> EnumerableEnvironment:
+    """A new environment of a domain that can list its states.
+
+    Raises:
+        ConfigurationError: if it cannot.
+    """
+    environment = make_environment(domain)
+    if not isinstance(environment, EnumerableEnvironment):
+        raise ConfigurationError(f"{domain}: its states cannot be listed, as experiments need")
+    return environment
+
+
+def _choose(experiment: Experiment, domain: str) -> ProblemSet:
+    choice = experiment.problems
+    path = Path(choice.file) if choice.file else reference_of(domain).problems
+    problems = read_problems(path, enumerable_environment(domain))
+    return problems.first(choice.easy, choice.hard, choice.impossible)

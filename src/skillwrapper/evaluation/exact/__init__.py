@@ -1,0 +1,1 @@
+"""Exact figures where all states can be listed."""

@@ -1,0 +1,158 @@
+"""Verdicts on the paper's definitions, each with a shortest counterexample if it does not hold.
+
+A problem may start in any reachable state, so one wrong step is a wrong plan of length one, and a
+plan all of whose steps are right is right. That makes the definitions checkable step by step:
+
+- *sound*: what an applicable operator predicts is what happens (skill and change);
+- *complete*: wherever a skill truly leads, some abstract plan leads too;
+- *suitable*: a skill instance is applicable in the abstract state if and only if it succeeds in the
+  real one, both now and after one step of the model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillwrapper.evaluation.exact.abstract_graph import AbstractGraph
+from skillwrapper.evaluation.exact.predictions import (
+    Pairs,
+    Predictions,
+    WrongEffects,
+    applicable_instances,
+)
+from skillwrapper.grounding.ground import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
+
+_IMAGINED_STATES = 10
+"""Abstract states looked at, as a multiple of the true ones, before completeness stays open."""
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One place where a definition does not hold.
+
+    Attributes:
+        verdict: ``"sound"``, ``"complete"`` or ``"suitable"``.
+        reason: what is wrong there, in words.
+        state: index of the state before.
+        instance: index of the skill instance.
+        difference: atoms that are predicted otherwise than seen, with the prediction.
+    """
+
+    verdict: str
+    reason: str
+    state: int
+    instance: int
+    difference: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """Which definitions hold.
+
+    Attributes:
+        sound: see the module.
+        complete: None if it stayed open.
+        suitable: see the module.
+        violations: for each that does not hold, one nearest to the start.
+    """
+
+    sound: bool
+    complete: bool | None
+    suitable: bool
+    violations: tuple[Violation, ...]
+
+
+def judge(model: GroundModel, predictions: Predictions) -> Verdicts:
+    """Check all definitions on the whole state space."""
+    unsound = _nearest(predictions, _unsound(model.space, predictions))
+    unsuitable = _nearest(predictions, _unsuitable(model, predictions))
+    complete, incomplete = _completeness(model, predictions)
+    found = (unsound, incomplete, unsuitable)
+    return Verdicts(
+        sound=unsound is None,
+        complete=complete,
+        suitable=unsuitable is None,
+        violations=tuple(violation for violation in found if violation is not None),
+    )
+
+
+def _nearest(predictions: Predictions, found: Iterator[Violation]) -> Violation | None:
+    distance = predictions.space.distance
+    return min(found, key=lambda v: (distance[v.state], v.state, v.instance), default=None)
+
+
+def _unsound(space: AtomSpace, predictions: Predictions) -> Iterator[Violation]:
+    yield from _pairs(predictions, predictions.false_alarms, "sound", "applies, but fails")
+    for wrong in predictions.wrong_effects:
+        yield _wrong_effect(space, predictions, wrong)
+
+
+def _wrong_effect(space: AtomSpace, predictions: Predictions, wrong: WrongEffects) -> Violation:
+    nearest = int(np.argmin(predictions.space.distance[wrong.states]))
+    state = int(wrong.states[nearest])
+    truth = predictions.labels[predictions.space.following[state, wrong.instance]]
+    predicted = wrong.predicted[nearest]
+    return Violation(
+        "sound",
+        f"{wrong.operator.operator.name} predicts another change",
+        state,
+        wrong.instance,
+        _difference(space, predicted, truth),
+    )
+
+
+def _difference(space: AtomSpace, predicted: Labels, truth: Labels) -> tuple[str, ...]:
+    words = {TRUE: "true", UNKNOWN: "unknown"}
+    return tuple(
+        f"{space.atoms[column]}: predicted {words.get(int(predicted[column]), 'false')}, "
+        f"is {words.get(int(truth[column]), 'false')}"
+        for column in np.flatnonzero(predicted != truth)
+    )
+
+
+def _unsuitable(model: GroundModel, predictions: Predictions) -> Iterator[Violation]:
+    alarms, missed = predictions.false_alarms, predictions.missed
+    yield from _pairs(predictions, alarms, "suitable", "applies, but fails")
+    yield from _pairs(predictions, missed, "suitable", "succeeds, but no operator applies")
+    for wrong in predictions.wrong_effects:
+        after = predictions.space.following[wrong.states, wrong.instance]
+        expected = applicable_instances(model, predictions.space, wrong.predicted)
+        differs = expected != predictions.space.success[after]
+        for number in np.flatnonzero(differs.any(axis=1)):
+            other = predictions.space.instances[int(np.argmax(differs[number]))]
+            reason = f"{wrong.operator.operator.name} predicts wrongly whether {other} can follow"
+            yield Violation("suitable", reason, int(wrong.states[number]), wrong.instance)
+
+
+def _pairs(
+    predictions: Predictions, marked: Pairs, verdict: str, reason: str
+) -> Iterator[Violation]:
+    """A violation for each marked pair of state and instance, nearest to the start only."""
+    states, instances = np.nonzero(marked)
+    if len(states):
+        first = int(np.argmin(predictions.space.distance[states]))
+        yield Violation(verdict, reason, int(states[first]), int(instances[first]))
+
+
+def _completeness(
+    model: GroundModel, predictions: Predictions
+) -> tuple[bool | None, Violation | None]:
+    """Whether abstract plans lead wherever skills truly lead."""
+    space, labels = predictions.space, predictions.labels
+    graph = AbstractGraph(model, limit=_IMAGINED_STATES * len(space.states))
+    states, instances = np.nonzero(space.success & ~predictions.reproduced)
+    open_questions = False
+    for position in np.argsort(space.distance[states], kind="stable"):
+        state, instance = int(states[position]), int(instances[position])
+        after = labels[space.following[state, instance]]
+        reachable = graph.is_reachable(labels[state], after)
+        if reachable is False:
+            reason = "succeeds, but no abstract plan leads to what is then seen"
+            return False, Violation("complete", reason, state, instance)
+        open_questions |= reachable is None
+        if open_questions:
+            break
+    return (None if open_questions else True), None

@@ -1,0 +1,44 @@
+"""All methods by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from skillwrapper.errors import UnknownNameError
+from skillwrapper.evaluation.methods.expert import EXPERT, EXPERT_READ
+from skillwrapper.evaluation.methods.fm_invent import FM_INVENT
+from skillwrapper.evaluation.methods.method import Method
+from skillwrapper.evaluation.methods.no_heuristic import NO_HEURISTIC
+from skillwrapper.evaluation.methods.random_exploration import RANDOM_EXPLORATION
+from skillwrapper.evaluation.methods.skillwrapper import OURS, OURS_PAPER_BUDGET
+from skillwrapper.evaluation.methods.system import SYSTEM, SYSTEM_ABSENCE
+from skillwrapper.evaluation.methods.vila import VILA
+
+_ALL: tuple[Method, ...] = (
+    EXPERT,
+    EXPERT_READ,
+    SYSTEM,
+    SYSTEM_ABSENCE,
+    VILA,
+    RANDOM_EXPLORATION,
+    FM_INVENT,
+    NO_HEURISTIC,
+    OURS_PAPER_BUDGET,
+    OURS,
+)
+
+METHODS: Final[Mapping[str, Method]] = MappingProxyType({method.name: method for method in _ALL})
+"""The methods in the order of tables."""
+
+
+def method_of(name: str) -> Method:
+    """The method of a name.
+
+    Raises:
+        UnknownNameError: if there is none.
+    """
+    if name not in METHODS:
+        raise UnknownNameError("method", name, METHODS)
+    return METHODS[name]

@@ -1,0 +1,22 @@
+"""The whole method, with the experiment's budget of executions and with the paper's."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from skillwrapper.evaluation.methods.learned import LearnedMethod
+from skillwrapper.runs.config import RunConfig
+
+PAPER_ITERATIONS: Final = 5
+PAPER_BUDGET: Final = 15
+"""The paper's hyperparameters (Appendix, Hyperparameters)."""
+
+OURS: Final = LearnedMethod("ours", "SkillWrapper (ours)")
+
+
+def _paper_budget(config: RunConfig) -> RunConfig:
+    exploration = config.exploration.model_copy(update={"budget": PAPER_BUDGET})
+    return config.model_copy(update={"iterations": PAPER_ITERATIONS, "exploration": exploration})
+
+
+OURS_PAPER_BUDGET: Final = LearnedMethod("ours-5x15", "SkillWrapper, 5 x 15", _paper_budget)

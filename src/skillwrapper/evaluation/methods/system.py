@@ -1,0 +1,118 @@
+"""System Predicates: operators learned from the simulator's own, true description of states.
+
+Nothing is invented, and start and goal are known exactly, as in the paper. Without universal
+absences the predicates cannot say that nothing lies on an item; with them they can (DESIGN.md D2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from skillwrapper.errors import InternalError
+from skillwrapper.evaluation.exact.learning_curves import Stage
+from skillwrapper.evaluation.methods.learned import read_episodes
+from skillwrapper.evaluation.methods.method import Bench, Prepared
+from skillwrapper.evaluation.problems.readers import StateReader, system_reader
+from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.learning.certification import certify
+from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.episode import Episode
+from skillwrapper.world.observation import Observation
+
+
+@dataclass(frozen=True)
+class RecordedStates:
+    """True labels of recorded pictures (``learning.dataset.TruthSource``).
+
+    Attributes:
+        reader: knows the true atoms of states.
+        states: the state of every recorded picture, by the key of its observation.
+    """
+
+    reader: StateReader
+    states: dict[str, Any] = field(default_factory=dict)
+
+    def add(self, environment: EnumerableEnvironment, episode: Episode) -> None:
+        """Find out the states of an episode by running it again, without pictures."""
+        environment.reset(seed=episode.seed)
+        state = environment.get_state()
+        for transition in episode.transitions:
+            self.states[transition.before.key] = state
+            _, state = environment.successor(state, transition.instance)
+            self.states[transition.after.key] = state
+
+    def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        """Nothing to do: all labels are there."""
+
+    def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
+        """True labels (observations, atoms)."""
+        return self.reader.read(space, [self.states[o.key] for o in observations])
+
+
+@dataclass(frozen=True)
+class SystemMethod:
+    """Learns operators over the simulator's predicates from what the whole method executed.
+
+    Attributes:
+        name: short, as in experiment files.
+        title: as in tables.
+        absences: whether preconditions may be universal absences.
+        source: the method whose executions are used.
+    """
+
+    name: str
+    title: str
+    absences: bool
+    source: str | None = "ours"
+
+    @contextmanager
+    def prepare(self, bench: Bench) -> Iterator[Prepared]:
+        """Learn from the recorded episodes, one after the other."""
+        if bench.source is None:
+            raise InternalError(f"{self.name}: expected a source cell, got none; please report it")
+        reader = system_reader(bench.environment)
+        episodes = read_episodes(RunFolder.open(bench.source / "run"))
+        recorded = RecordedStates(reader)
+        dataset = Dataset(bench.environment.domain)
+        fitter = Fitter(dataset.domain, dataset, recorded, absences=self.absences)
+        stages = []
+        for episode in episodes:
+            recorded.add(bench.environment, episode)
+            dataset.add(episode)
+            fit = fitter.fit(bench.reference.system_predicates)
+            stages.append(Stage(len(dataset), fit.model))
+        solver = bench.solver(fit.model, reader, reader)
+        states = bench.truth.space.states
+        yield Prepared(
+            solver,
+            tuple(stages),
+            lambda atoms: reader.read(atoms, states),
+            episodes,
+            recorded,
+            self.absences,
+            _figures(fit, len(dataset)),
+        )
+
+
+def _figures(fit: Fit, executions: int) -> dict[str, Any]:
+    certificate = certify(fit)
+    return {
+        "executions": executions,
+        "predicates": len(fit.predicates),
+        "operators": len(fit.operators),
+        "lemma1_violations": certificate.count("lemma1"),
+        "theorem1_violations": certificate.count("theorem1"),
+        "inconsistencies": len(fit.inconsistencies),
+    }
+
+
+SYSTEM: Final = SystemMethod("system", "System Predicates", absences=False)
+SYSTEM_ABSENCE: Final = SystemMethod(
+    "system-absence", "System Predicates with absences", absences=True
+)

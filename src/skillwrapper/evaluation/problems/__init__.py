@@ -1,0 +1,1 @@
+"""Problems, and what comes of trying to solve them."""

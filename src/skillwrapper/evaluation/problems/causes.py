@@ -1,0 +1,138 @@
+"""Why a problem was not solved: the first thing that is not as it truly is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from skillwrapper.evaluation.problems.readers import StateReader
+from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
+from skillwrapper.planning.result import SkillPlan
+from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.skills import SkillInstance
+
+
+class Cause(StrEnum):
+    """What kept a problem from being solved."""
+
+    START_MISREAD = "start misread"
+    """A label of the start picture is wrong or unknown."""
+    GOAL_MISREAD = "goal misread"
+    """A label of the goal picture is wrong or unknown."""
+    PREDICATE_MISSING = "predicate missing"
+    """Two true states that differ have the same labels."""
+    OPERATOR_MISSING = "operator missing"
+    """A skill that works is not predicted to work."""
+    EFFECT_WRONG = "effect wrong"
+    """An operator predicts another change than the one that happens."""
+    SKILL_FAILED = "skill failed"
+    """A skill that does not work is predicted to work."""
+    PLANNER_OUT_OF_TIME = "planner out of time"
+    """The planner found nothing in its time."""
+    WRONGLY_IMPOSSIBLE = "claimed impossible"
+    """The method says that there is no solution, and nothing else is known to be wrong."""
+    WRONGLY_DONE = "claimed done"
+    """The method says that the goal is reached, which it is not."""
+    OUT_OF_STEPS = "out of steps"
+    """The method used all skills that it may execute."""
+    UNUSABLE_ANSWER = "unusable answer"
+    """The model's answer could not be understood."""
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """A cause, and what exactly was found.
+
+    Attributes:
+        cause: the kind of cause.
+        detail: in words, for people.
+    """
+
+    cause: Cause
+    detail: str
+
+
+@dataclass(frozen=True)
+class Diagnostician:
+    """Looks for the first thing that is wrong with a model.
+
+    Attributes:
+        environment: tells what really happens.
+        model: the ground model.
+        truth: labels of the model's predicates without error.
+    """
+
+    environment: EnumerableEnvironment
+    model: GroundModel
+    truth: StateReader
+
+    def misread(self, cause: Cause, read: Labels, state: Any) -> Diagnosis | None:
+        """Where the labels (atoms,) that were read off a picture are wrong or unknown."""
+        true = self._labels(state)
+        if not ((read != true) | (read == UNKNOWN)).any():
+            return None
+        return Diagnosis(cause, _difference(self.model.space, read, true))
+
+    def blind(self, first: Any, second: Any) -> Diagnosis | None:
+        """Whether two different states look alike to the model."""
+        if first == second or (self._labels(first) != self._labels(second)).any():
+            return None
+        return Diagnosis(Cause.PREDICATE_MISSING, "start and goal have the same labels")
+
+    def no_plan(self, start: Any, solution: SkillPlan) -> Diagnosis:
+        """Why there is no abstract plan, though a true solution is known."""
+        state = start
+        for step in solution:
+            _, after = self.environment.successor(state, step)
+            before, expected = self._labels(state), self._labels(after)
+            operators = self.model.applicable(step, before)
+            if not operators:
+                return Diagnosis(Cause.OPERATOR_MISSING, f"{step} works, but no operator applies")
+            following = [operator.apply(before[np.newaxis])[0] for operator in operators]
+            if not any((labels == expected).all() for labels in following):
+                difference = _difference(self.model.space, following[0], expected)
+                return Diagnosis(Cause.EFFECT_WRONG, f"{step}: {difference}")
+            state = after
+        return Diagnosis(Cause.WRONGLY_IMPOSSIBLE, "every step of a solution is predicted rightly")
+
+    def bad_plan(self, start: Any, goal: Any, plan: SkillPlan) -> Diagnosis:
+        """Why a plan of the model does not lead to the goal, though all labels were right."""
+        imagined, state = {self._labels(start).tobytes()}, start
+        for step in plan:
+            succeeded, state = self.environment.successor(state, step)
+            if not succeeded:
+                return Diagnosis(Cause.SKILL_FAILED, f"{step} is predicted to work, and fails")
+            true = self._labels(state)
+            imagined = self._imagine(imagined, step)
+            if true.tobytes() not in imagined:
+                shown = np.frombuffer(min(imagined), dtype=np.int8) if imagined else true
+                difference = _difference(self.model.space, shown, true)
+                return Diagnosis(Cause.EFFECT_WRONG, f"{step}: {difference}")
+        if (self._labels(state) == self._labels(goal)).all():
+            return Diagnosis(Cause.PREDICATE_MISSING, "what was reached has the labels of the goal")
+        return Diagnosis(Cause.EFFECT_WRONG, "what was reached is predicted to be the goal")
+
+    def _imagine(self, states: set[bytes], step: SkillInstance) -> set[bytes]:
+        """The abstract states that some operator of a skill leads to."""
+        rows = [np.frombuffer(state, dtype=np.int8) for state in sorted(states)]
+        return {
+            operator.apply(row[np.newaxis])[0].tobytes()
+            for row in rows
+            for operator in self.model.applicable(step, row)
+        }
+
+    def _labels(self, state: Any) -> Labels:
+        labels: Labels = self.truth.read(self.model.space, [state])[0]
+        return labels
+
+
+def _difference(space: AtomSpace, found: Labels, expected: Labels) -> str:
+    words = {TRUE: "true", UNKNOWN: "unknown"}
+    return ", ".join(
+        f"{space.atoms[column]} is {words.get(int(expected[column]), 'false')}, "
+        f"not {words.get(int(found[column]), 'false')}"
+        for column in np.flatnonzero(found != expected)
+    )

@@ -1,0 +1,150 @@
+"""Making test problems by exact search over the true state space."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from skillwrapper.errors import ConfigurationError
+from skillwrapper.evaluation.exact.references import DomainReference
+from skillwrapper.evaluation.exact.state_space import StateSpace
+from skillwrapper.evaluation.problems.problems import (
+    LONGEST_EASY,
+    LONGEST_HARD,
+    Problem,
+    ProblemClass,
+    ProblemSet,
+)
+from skillwrapper.world.environment import EnumerableEnvironment
+
+_TRIES = 200
+_LENGTHS = {
+    ProblemClass.EASY: range(1, LONGEST_EASY + 1),
+    ProblemClass.HARD: range(LONGEST_EASY + 1, LONGEST_HARD + 1),
+}
+_FIRST_LAYOUT, _LAYOUTS = 500_000, 400_000
+"""Layouts of problems are none of those that a run with a small seed resets to."""
+
+
+@dataclass
+class ProblemGenerator:
+    """Draws problems with a known optimal length, or proven to be impossible.
+
+    Lengths and kinds of impossibility take turns, and every second start is the standard one;
+    among the goals that fit, one of the structures used least is taken.
+
+    Args:
+        environment: the domain.
+        reference: tells structures and reasons.
+        seed: decides every choice.
+    """
+
+    environment: EnumerableEnvironment
+    reference: DomainReference
+    seed: int
+    _used: Counter[str] = field(default_factory=Counter, init=False)
+    _taken: set[tuple[int, int]] = field(default_factory=set, init=False)
+
+    def __post_init__(self) -> None:
+        self._chance = random.Random(f"problems {self.seed}")
+        self._space = StateSpace.of(self.environment)
+
+    def generate(self, easy: int, hard: int, impossible: int) -> ProblemSet:
+        """A set with so many problems of each class.
+
+        Raises:
+            ConfigurationError: if the domain has not so many.
+        """
+        problems = (
+            *self._solvable(ProblemClass.EASY, easy),
+            *self._solvable(ProblemClass.HARD, hard),
+            *self._impossible(impossible),
+        )
+        return ProblemSet(self.environment.domain.name, self.seed, problems)
+
+    def _solvable(self, kind: ProblemClass, count: int) -> Iterator[Problem]:
+        lengths = _LENGTHS[kind]
+        for number in range(count):
+            length = lengths[number * len(lengths) // count]
+            start, goal = self._draw(
+                partial(self._at_distance, length),
+                f"optimal solutions of {length} skills",
+                standard=number % 2 == 0,
+            )
+            yield self._problem(kind, number, start, goal, length=length)
+
+    def _impossible(self, count: int) -> Iterator[Problem]:
+        kinds = self.reference.impossible_kinds
+        for number in range(count):
+            kind = kinds[number % len(kinds)]
+            start, goal = self._draw(
+                partial(self._unreachable, kind),
+                f"impossible problems of the kind {kind}",
+                standard=False,
+            )
+            states = self._space.states
+            found = self.reference.impossibility(states[start], states[goal])
+            reason = found[1] if found else ""
+            yield self._problem(ProblemClass.IMPOSSIBLE, number, start, goal, reason=reason)
+
+    def _draw(
+        self, goals_from: Callable[[int], Iterable[int]], what: str, *, standard: bool
+    ) -> tuple[int, int]:
+        """A start and one of its goals that are not taken yet."""
+        for attempt in range(_TRIES):
+            first = standard and attempt == 0
+            start = 0 if first else self._chance.randrange(len(self._space.states))
+            goals = [g for g in goals_from(start) if (start, g) not in self._taken]
+            if goals:
+                goal = self._least_used(goals)
+                self._taken.add((start, goal))
+                return start, goal
+        raise ConfigurationError(
+            f"{self.environment.domain.name}: found no more {what}; ask for fewer problems"
+        )
+
+    def _at_distance(self, length: int, start: int) -> list[int]:
+        return np.flatnonzero(self._space.distances_from(start) == length).tolist()
+
+    def _unreachable(self, kind: str, start: int) -> list[int]:
+        states = self._space.states
+        reached = self._space.distances_from(start)
+        return [
+            goal
+            for goal in np.flatnonzero(reached < 0).tolist()
+            if (self.reference.impossibility(states[start], states[goal]) or ("",))[0] == kind
+        ]
+
+    def _least_used(self, goals: list[int]) -> int:
+        structure = {goal: self.reference.structure(self._space.states[goal]) for goal in goals}
+        least = min(self._used[s] for s in structure.values())
+        # A structure first, then a goal: else structures with many goals would come more often.
+        open_structures = sorted({s for s in structure.values() if self._used[s] == least})
+        chosen = self._chance.choice(open_structures)
+        self._used[chosen] += 1
+        return self._chance.choice([goal for goal in goals if structure[goal] == chosen])
+
+    def _problem(
+        self,
+        kind: ProblemClass,
+        number: int,
+        start: int,
+        goal: int,
+        length: int | None = None,
+        reason: str = "",
+    ) -> Problem:
+        states = self._space.states
+        return Problem(
+            name=f"{kind}-{number + 1:02d}",
+            kind=kind,
+            layout=_FIRST_LAYOUT + self._chance.randrange(_LAYOUTS),
+            initial=self.environment.state_to_data(states[start]),
+            goal=self.environment.state_to_data(states[goal]),
+            length=length,
+            reason=reason,
+        )

@@ -1,0 +1,1 @@
+"""Predicates from inconsistencies: inventor, vocabulary, pruning, batch invention, convergence."""

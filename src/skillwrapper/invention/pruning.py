@@ -1,0 +1,132 @@
+"""Pruning: predicates that the data can do without are set dormant (DESIGN.md D9)."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillwrapper.grounding import UNKNOWN
+from skillwrapper.invention.vocabulary import Vocabulary
+from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.symbols import Predicate
+
+
+@dataclass(frozen=True)
+class Pruned:
+    """A predicate that was set dormant, and why."""
+
+    predicate: Predicate
+    reason: str
+
+
+def prune(fitter: Fitter, vocabulary: Vocabulary) -> tuple[Pruned, ...]:
+    """Merge synonyms and antonyms, then set dormant what is superfluous."""
+    return (*_merge(fitter, vocabulary), *_drop_superfluous(fitter, vocabulary))
+
+
+def find_burdens(
+    fitter: Fitter, vocabulary: Vocabulary, spared: Collection[Predicate] = ()
+) -> tuple[Predicate, ...]:
+    """The predicates without which it takes least to account for the data.
+
+    A predicate that says nothing of a skill splits its successes into many small clusters, each
+    with an operator that fits its few transitions and no other: consistent, and useless. Several
+    of them hide each other, so predicates are left out one after the other, the cheapest to lose
+    first, and the best vocabulary on the way is compared with the present one.
+
+    Returns:
+        Nothing if every predicate, save the spared ones, is worth what it takes.
+    """
+    remaining = list(vocabulary.active)
+    lowest, best = fitter.fit(remaining).cost, tuple(remaining)
+    while left := [p for p in remaining if p not in spared]:
+        cheapest, cost = left[-1], _cost_without(fitter, remaining, left[-1])
+        for predicate in reversed(left[:-1]):
+            less = _cost_without(fitter, remaining, predicate, cost)
+            if less < cost:
+                cheapest, cost = predicate, less
+        remaining.remove(cheapest)
+        if cost < lowest:
+            lowest, best = cost, tuple(remaining)
+    return tuple(p for p in vocabulary.active if p not in best)
+
+
+def _cost_without(
+    fitter: Fitter, predicates: Sequence[Predicate], left_out: Predicate, limit: float = math.inf
+) -> int:
+    """What it takes without a predicate; if that is not below the limit, any such number."""
+    cost = 0
+    for fit in fitter.fit_each([p for p in predicates if p != left_out]):
+        cost += fit.cost
+        if cost >= limit:
+            break
+    return cost
+
+
+def _merge(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
+    """Of predicates with equal or opposite labels over all data the first invented stays."""
+    kept: list[Predicate] = []
+    pruned = []
+    for predicate in vocabulary.active:
+        for other in kept:
+            relation = _relation(fitter, other, predicate)
+            if relation:
+                vocabulary.set_dormant(predicate)
+                pruned.append(Pruned(predicate, f"{relation} of {other.name} on all data"))
+                break
+        else:
+            kept.append(predicate)
+    return pruned
+
+
+def _relation(fitter: Fitter, first: Predicate, second: Predicate) -> str:
+    """``"synonym"``, ``"antonym"`` or nothing."""
+    if first.types != second.types:
+        return ""
+    compared = 0
+    equal = opposite = True
+    for scene in fitter.dataset.scenes:
+        a = fitter.reading.labels(scene, [first])
+        b = fitter.reading.labels(scene, [second])
+        known = (a != UNKNOWN) & (b != UNKNOWN)
+        compared += int(known.sum())
+        equal &= bool(np.array_equal(a[known], b[known]))
+        opposite &= bool(np.array_equal(a[known], 1 - b[known]))
+    if not compared:
+        return ""
+    return "synonym" if equal else "antonym" if opposite else ""
+
+
+def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
+    """Set dormant, least used first, each predicate whose removal adds no inconsistency."""
+    pruned: list[Pruned] = []
+    tried: set[Predicate] = set()
+    while True:
+        fit = fitter.fit(vocabulary.active)
+        left = [p for p in vocabulary.active if p not in tried]
+        if not left:
+            return pruned
+        use = _usage(fit)
+        predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
+        tried.add(predicate)
+        without = fitter.fit_each([p for p in vocabulary.active if p != predicate])
+        if all(one.witnesses <= fit.skills[one.skill].witnesses for one in without):
+            vocabulary.set_dormant(predicate)
+            pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
+
+
+def _usage(fit: Fit) -> Counter[str]:
+    """How often each predicate occurs in the operators."""
+    use: Counter[str] = Counter()
+    for learned in fit.operators:
+        operator = learned.operator
+        use.update(literal.atom.predicate for literal in operator.preconditions)
+        use.update(absence.atom.predicate for absence in operator.absences)
+        use.update(atom.predicate for atom in operator.add_effects | operator.delete_effects)
+        for effect in operator.conditional_effects:
+            use.update(literal.atom.predicate for literal in (*effect.condition, effect.effect))
+    return use

@@ -1,0 +1,1 @@
+"""A run: configuration, Algorithm 1, and the folder in which it is kept."""

@@ -1,0 +1,138 @@
+"""Executing skill sequences so that a crash loses at most the skill in flight."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from skillwrapper.errors import RobotError, RunFolderError
+from skillwrapper.files.writing import append_line, read_lines
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.world.environment import Environment
+from skillwrapper.world.episode import Episode, Transition
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.skills import SkillInstance
+
+Choose = Callable[[tuple[str, ...], Observation], tuple[SkillInstance, ...]]
+"""From the scene and the first observation to the sequence to execute."""
+
+Listener = Callable[[Transition], None]
+
+
+class EpisodeRecorder:
+    """Runs an episode in the environment, or reads it if it was recorded already.
+
+    An episode that was cut short by a crash is continued: the environment is reset with the
+    same seed and what was recorded is executed again and compared. An environment that cannot
+    do that (a robot) says so with ``replayable = False``; its episode then ends where the
+    record ends.
+    """
+
+    def __init__(self, folder: RunFolder, environment: Environment) -> None:
+        self._folder = folder
+        self._environment = environment
+
+    def run(self, number: int, seed: int, choose: Choose, listener: Listener) -> Episode:
+        """Record an episode.
+
+        Args:
+            number: of the episode, from 1.
+            seed: for the reset of the environment.
+            choose: decides what to execute; called in any case, so that choices by chance are
+                the same in a resumed run.
+            listener: told of every new transition.
+
+        Raises:
+            RobotError: if the environment fails, or does not repeat what was recorded.
+            RunFolderError: if the record does not fit.
+        """
+        lines = list(read_lines(self._folder.episode(number)))
+        if not lines:
+            return self._start(number, seed, choose, listener)
+        header, entries = lines[0], lines[1:]
+        start = self._folder.load_observation(header["start"])
+        sequence = choose(tuple(header["scene"]), start)
+        if [str(i) for i in sequence] != header["sequence"]:
+            raise RunFolderError(
+                f"{self._folder.episode(number)}: another sequence was recorded than this version "
+                "chooses; resume with the version that made the run (config.yaml)"
+            )
+        transitions = read_transitions(self._folder, start, entries)
+        if len(transitions) < len(sequence) and getattr(self._environment, "replayable", True):
+            self._repeat(start, seed, transitions)
+            for instance in sequence[len(transitions) :]:
+                transitions.append(self._execute(number, transitions, start, instance))
+                listener(transitions[-1])
+        return Episode(tuple(header["scene"]), seed, tuple(transitions))
+
+    def _start(self, number: int, seed: int, choose: Choose, listener: Listener) -> Episode:
+        start = self._environment.reset(seed=seed)
+        scene = self._environment.scene
+        sequence = choose(scene, start)
+        header = {
+            "scene": list(scene),
+            "seed": seed,
+            "sequence": [str(i) for i in sequence],
+            "start": self._folder.save_observation(start),
+        }
+        append_line(self._folder.episode(number), header)
+        transitions: list[Transition] = []
+        for instance in sequence:
+            transitions.append(self._execute(number, transitions, start, instance))
+            listener(transitions[-1])
+        return Episode(scene, seed, tuple(transitions))
+
+    def _execute(
+        self, number: int, done: list[Transition], start: Observation, instance: SkillInstance
+    ) -> Transition:
+        before = done[-1].after if done else start
+        outcome = self._environment.execute(instance)
+        entry = {
+            "skill": instance.skill,
+            "arguments": list(instance.arguments),
+            "success": outcome.success,
+            "message": outcome.message,
+            "after": self._folder.save_observation(outcome.observation),
+        }
+        append_line(self._folder.episode(number), entry)
+        return Transition(before, instance, outcome.success, outcome.observation)
+
+    def _repeat(self, start: Observation, seed: int, recorded: list[Transition]) -> None:
+        """Bring the environment to where the record ends."""
+        seen = self._environment.reset(seed=seed)
+        if seen.key != start.key:
+            raise RobotError(f"reset with seed {seed} shows another picture than was recorded")
+        for transition in recorded:
+            outcome = self._environment.execute(transition.instance)
+            same = outcome.observation.key == transition.after.key
+            if outcome.success != transition.success or not same:
+                raise RobotError(f"{transition.instance} went another way than was recorded")
+
+
+def read_episode(folder: RunFolder, number: int) -> Episode:
+    """A recorded episode, from 1.
+
+    Raises:
+        RunFolderError: if there is none.
+    """
+    lines = list(read_lines(folder.episode(number)))
+    if not lines:
+        raise RunFolderError(f"{folder.episode(number)}: expected a recorded episode, got none")
+    header = lines[0]
+    start = folder.load_observation(header["start"])
+    transitions = read_transitions(folder, start, lines[1:])
+    return Episode(tuple(header["scene"]), header["seed"], tuple(transitions))
+
+
+def read_transitions(
+    folder: RunFolder, start: Observation, entries: list[dict[str, Any]]
+) -> list[Transition]:
+    """The transitions of the lines of an episode."""
+    transitions: list[Transition] = []
+    before = start
+    for entry in entries:
+        instance = SkillInstance(entry["skill"], tuple(entry["arguments"]))
+        after = folder.load_observation(entry["after"])
+        transitions.append(Transition(before, instance, bool(entry["success"]), after))
+        before = after
+    return transitions

@@ -1,0 +1,1 @@
+"""Labelled transitions: what the learner learns from, as arrays."""

@@ -1,0 +1,50 @@
+"""What calls took: added up over interruptions, and unknown if any part is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from skillwrapper.evaluation.benchmark.bills import NOTHING, Bill, learning_bill, solving_bill
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.vlm.protocol import Role, Usage
+from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
+
+
+def keep(path: Path, *costs: tuple[int | None, float | None]) -> RunFolder:
+    """A folder with a call for each pair of iteration and cost."""
+    folder = RunFolder(path)
+    with CallStore(folder.calls) as store:
+        for number, (iteration, cost) in enumerate(costs):
+            usage = Usage(100, 10, cost, 2.0)
+            key = str(number)
+            store.add(
+                StoredCall(
+                    key, key, CallStatus.ANSWERED, Role.EVALUATE, iteration, "m", "{}", 0,
+                    "", "", (), "yes", usage,
+                )
+            )  # fmt: skip
+        store.count_served(Role.EVALUATE, 1)
+    return folder
+
+
+def test_learning_and_solving_are_told_apart(tmp_path: Path) -> None:
+    folder = keep(tmp_path, (1, 0.25), (2, 0.5), (None, 0.125))
+    assert learning_bill(folder) == Bill(3, pytest.approx(0.75), 200, 20, 4.0)
+    assert solving_bill(folder, 1, "openai:x") == Bill(1, pytest.approx(0.125), 100, 10, 2.0)
+
+
+def test_one_unknown_cost_makes_the_sum_unknown(tmp_path: Path) -> None:
+    folder = keep(tmp_path, (1, 0.25), (1, None))
+    bill = learning_bill(folder)
+    assert bill is not None
+    assert (bill.calls, bill.cost) == (3, None)
+    assert solving_bill(folder, 4, "openai:x").cost is None
+
+
+def test_without_calls(tmp_path: Path) -> None:
+    assert learning_bill(None) is None
+    assert learning_bill(RunFolder(tmp_path)) is None
+    assert solving_bill(None, 0, "openai:x") == NOTHING
+    assert solving_bill(None, 5, "embedded") == Bill(5, 0.0, None, None, None)

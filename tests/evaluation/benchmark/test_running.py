@@ -1,0 +1,156 @@
+"""Cells run once, in an order that works; failures and killed processes cost only themselves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from crashing_task import crash_once
+
+from skillwrapper.errors import ConfigurationError
+from skillwrapper.evaluation.benchmark import workers as workers_module
+from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiments import Experiment, ProblemChoice
+from skillwrapper.evaluation.benchmark.running import run_experiment
+from skillwrapper.evaluation.benchmark.workers import (
+    ERROR,
+    CellOutcome,
+    OwnProcess,
+    Processes,
+    open_workers,
+)
+from skillwrapper.evaluation.methods.method import Cell, CellSettings
+
+
+def make_folder(path: Path, *methods: str) -> ExperimentFolder:
+    experiment = Experiment(
+        name="x",
+        methods=methods,
+        seeds=(0, 1),
+        settings=CellSettings(iterations=1, budget=4),
+        problems=ProblemChoice(easy=1, hard=0, impossible=1),
+    )
+    return ExperimentFolder.create_or_resume(path, experiment)
+
+
+class PretendingWorkers:
+    """Write an empty result for every cell; some cells fail."""
+
+    def __init__(self, folder: ExperimentFolder, *failing: str) -> None:
+        self.folder, self.failing = folder, failing
+        self.taken: list[str] = []
+        self._open: list[Cell] = []
+
+    def submit(self, cell: Cell) -> None:
+        self.taken.append(cell.name)
+        self._open.append(cell)
+
+    def next(self) -> CellOutcome:
+        cell = self._open.pop(0)
+        if cell.name in self.failing:
+            return CellOutcome(cell, "broken")
+        self.folder.cell(cell).mkdir(parents=True)
+        (self.folder.cell(cell) / RESULT).touch()
+        return CellOutcome(cell)
+
+
+def test_sources_first_and_nothing_twice(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "out", "system", "ours", "expert")
+    team = PretendingWorkers(folder)
+    ended: list[str] = []
+    run_experiment(folder, team, ended=lambda outcome: ended.append(outcome.cell.name))
+    assert len(team.taken) == len(set(team.taken)) == 6
+    for seed in (0, 1):
+        ours, system = f"ours-burger-s{seed}-none", f"system-burger-s{seed}-none"
+        assert team.taken.index(system) > ended.index(ours)
+    again = PretendingWorkers(folder)
+    assert run_experiment(folder, again) == ()
+    assert again.taken == []
+
+
+def test_failure_costs_only_what_depends_on_it(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "out", "system", "ours", "expert")
+    team = PretendingWorkers(folder, "ours-burger-s0-none")
+    errors = {o.cell.name: o.error for o in run_experiment(folder, team) if o.error}
+    assert errors == {
+        "ours-burger-s0-none": "broken",
+        "system-burger-s0-none": "ours-burger-s0-none, its source, failed",
+    }
+    later = PretendingWorkers(folder)
+    run_experiment(folder, later)
+    assert later.taken == ["ours-burger-s0-none", "system-burger-s0-none"]
+
+
+def test_error_is_written_down_and_goes_when_mended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = make_folder(tmp_path / "out", "expert")
+    cell = folder.experiment().cells[0]
+    monkeypatch.setattr(workers_module, "_run", _raise(ConfigurationError("no such thing")))
+    assert workers_module.work(folder.path, cell).error == "no such thing"
+    monkeypatch.setattr(workers_module, "_run", _raise(ZeroDivisionError("by zero")))
+    assert workers_module.work(folder.path, cell).error == "ZeroDivisionError: by zero"
+    assert "Traceback" in (folder.cell(cell) / ERROR).read_text()
+    monkeypatch.setattr(workers_module, "_run", lambda folder, cell: None)
+    assert workers_module.work(folder.path, cell) == CellOutcome(cell)
+    assert not (folder.cell(cell) / ERROR).exists()
+
+
+def _raise(error: Exception):  # type: ignore[no-untyped-def]
+    def run(folder: ExperimentFolder, cell: Cell) -> None:
+        raise error
+
+    return run
+
+
+def test_real_cells_in_this_process(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "out", "expert")
+    with open_workers(folder.path, 1) as team:
+        assert isinstance(team, OwnProcess)
+        outcomes = run_experiment(folder, team)
+    assert [o.error for o in outcomes] == ["", ""]
+    results = tuple(folder.results())
+    assert [r.cell.seed for r in results] == [0, 1]
+    for result in results:
+        assert [p.solved for p in result.problems] == [True, True]
+        assert result.exact is not None
+        assert result.exact["precision"] == result.exact["recall"] == 1.0
+        assert result.efficiency is None
+        assert CellResult.read(folder.cell(result.cell)) == result
+
+
+def test_interrupted_cell_solves_only_what_is_left(tmp_path: Path) -> None:
+    folder = make_folder(tmp_path / "out", "expert")
+    cell = folder.experiment().cells[0]
+    workers_module.work(folder.path, cell)
+    (folder.cell(cell) / RESULT).unlink()
+    record = folder.cell(cell) / "problems.jsonl"
+    first = record.read_text().splitlines()[0]
+    record.write_text(first + "\n" + '{"problem": "impos')  # cut short in the middle of a line
+    workers_module.work(folder.path, cell)
+    lines = record.read_text().splitlines()
+    assert len(lines) == 2
+    assert lines[0] == first
+    assert folder.is_finished(cell)
+
+
+def test_killed_process_costs_an_attempt(tmp_path: Path) -> None:
+    processes = Processes(tmp_path, 2, crash_once)
+    cells = [Cell("ours", "burger", seed, "none") for seed in range(3)]
+    for cell in cells:
+        processes.submit(cell)
+    outcomes = [processes.next() for _ in cells]
+    processes.close()
+    assert {o.cell for o in outcomes} == set(cells)
+    assert not any(o.error for o in outcomes)
+    assert all((tmp_path / cell.name).exists() for cell in cells)
+    assert (tmp_path / "crashed-1").exists()
+
+
+@pytest.mark.slow
+def test_cell_that_always_kills_its_process(tmp_path: Path) -> None:
+    processes = Processes(tmp_path, 1, crash_once)
+    processes.submit(Cell("ours", "burger", 9, "none"))
+    assert processes.next().error == "its process was killed again and again"
+    processes.close()

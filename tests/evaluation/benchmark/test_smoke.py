@@ -1,0 +1,46 @@
+"""The shipped experiment ``smoke.yaml``, as a user runs it: every method from start to end."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from skillwrapper.cli import experiments
+from skillwrapper.evaluation.methods.registry import METHODS
+
+SMOKE = Path(__file__).parents[3] / "experiments" / "smoke.yaml"
+COUNTS = {"easy": 3, "hard": 2, "impossible": 2}
+
+
+@pytest.mark.slow
+def test_smoke(tmp_path: Path) -> None:
+    app = typer.Typer()
+    experiments.register(app)
+    out = tmp_path / "smoke"
+    done = CliRunner().invoke(
+        app, ["experiment", "run", str(SMOKE), "--out", str(out), "--json"], catch_exceptions=False
+    )
+
+    assert done.exit_code == 0, done.output
+    report = json.loads(done.stdout)
+    assert report["failed"] == {}
+    assert report["finished"] == report["cells"] == len(METHODS)
+    rows = {row["method"]: row for row in report["methods"]}
+    assert list(rows) == list(METHODS)
+    for name in ("expert", "expert-read"):
+        exact = {key: rows[name][key]["mean"] for key in ("easy", "hard", "impossible")}
+        assert exact == {"easy": 100, "hard": 100, "impossible": 100}
+        assert rows[name]["budget_easy"]["mean"] == rows[name]["budget_hard"]["mean"] == 1
+        assert rows[name]["recall"]["mean"] == rows[name]["precision"]["mean"] == 1
+        assert rows[name]["causes"] == {}
+    for name, row in rows.items():
+        unsolved = sum(row["causes"].values())
+        solved = sum(row[kind]["mean"] * count / 100 for kind, count in COUNTS.items())
+        assert round(solved) + unsolved == sum(COUNTS.values()), name
+    for name in ("ours", "ours-5x15", "random", "fm-invent", "no-heuristic"):
+        assert 0 < rows[name]["area"]["mean"] < 1
+        assert (out / "cells" / f"{name}-burger-s0-none" / "run" / "curve.json").is_file()

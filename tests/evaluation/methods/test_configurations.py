@@ -1,0 +1,49 @@
+"""Each ablation changes what its name says, and nothing else."""
+
+from __future__ import annotations
+
+import pytest
+
+from skillwrapper.errors import UnknownNameError
+from skillwrapper.evaluation.methods.learned import LearnedMethod
+from skillwrapper.evaluation.methods.registry import METHODS, method_of
+from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.runs.config import RunConfig
+
+WHOLE = RunConfig(
+    domain="burger", seed=3, iterations=10, exploration=ExplorationSettings(budget=30)
+)
+
+CHANGES = (
+    ("ours", {}),
+    ("ours-5x15", {"iterations": (10, 5), "budget": (30, 15)}),
+    ("random", {"choice": ("pareto", "random")}),
+    ("no-heuristic", {"choice": ("pareto", "uniform")}),
+    ("fm-invent", {"invention": ("pairs", "batch")}),
+)
+
+
+@pytest.mark.parametrize(("name", "changes"), CHANGES)
+def test_what_is_changed(name: str, changes: dict[str, tuple[object, object]]) -> None:
+    method = method_of(name)
+    assert isinstance(method, LearnedMethod)
+    before, after = WHOLE.model_dump(mode="json"), method.configure(WHOLE).model_dump(mode="json")
+    assert _differences(before, after) == changes
+
+
+def _differences(before: dict, after: dict) -> dict[str, tuple[object, object]]:  # type: ignore[type-arg]
+    found: dict[str, tuple[object, object]] = {}
+    for key, value in before.items():
+        if isinstance(value, dict):
+            found |= _differences(value, after[key])
+        elif value != after[key]:
+            found[key] = (value, after[key])
+    return found
+
+
+def test_registry() -> None:
+    assert [method.name for method in METHODS.values()] == list(METHODS)
+    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 10
+    assert all(m.source is None or m.source in METHODS for m in METHODS.values())
+    with pytest.raises(UnknownNameError, match="did you mean 'vila'"):
+        method_of("villa")

@@ -1,0 +1,105 @@
+"""Methods prepared in a cell: what they learn, from which data, and how they go on later."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from skillwrapper.domains.burger.environment import BurgerEnvironment
+from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
+from skillwrapper.errors import InternalError
+from skillwrapper.evaluation.benchmark.bills import learning_bill
+from skillwrapper.evaluation.benchmark.efficiency import efficiency_of
+from skillwrapper.evaluation.exact.references import reference_of
+from skillwrapper.evaluation.exact.state_truth import StateTruth
+from skillwrapper.evaluation.methods.method import Bench, Cell, CellSettings, Prepared
+from skillwrapper.evaluation.methods.registry import method_of
+from skillwrapper.evaluation.problems.problems import read_problems
+from skillwrapper.runs.folder import RunFolder
+
+SETTINGS = CellSettings(iterations=2, budget=12)
+
+
+@cache
+def truth() -> StateTruth:
+    return StateTruth(BurgerEnvironment())
+
+
+@contextmanager
+def prepared(method: str, folder: Path, source: Path | None = None) -> Iterator[Prepared]:
+    cell = Cell(method, "burger", 1, "none")
+    bench = Bench(
+        cell, SETTINGS, folder, source, BurgerEnvironment(), reference_of("burger"), truth()
+    )
+    with method_of(method).prepare(bench) as ready:
+        yield ready
+
+
+@pytest.fixture(scope="module")
+def ours(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a finished cell of the whole method."""
+    folder = tmp_path_factory.mktemp("ours")
+    with prepared("ours", folder):
+        return folder
+
+
+def test_learned_method_leaves_a_run(ours: Path) -> None:
+    assert RunFolder.open(ours / "run").finished_iterations() == 2
+    with prepared("ours", ours) as again:  # resumed: nothing is executed a second time
+        assert [stage.executions for stage in again.stages] == [12, 24]
+        assert again.figures["executions"] == 24
+        bill = learning_bill(again.run)
+        assert bill is not None
+        assert (bill.calls > 0, bill.cost) == (True, 0.0)
+        assert again.recorded is not None
+
+
+def test_system_learns_from_the_same_executions(ours: Path, tmp_path: Path) -> None:
+    with prepared("ours", ours) as whole, prepared("system", tmp_path, ours) as system:
+        assert system.episodes == whole.episodes
+        assert [stage.executions for stage in system.stages] == [12, 24]
+        model = system.stages[-1].model
+        assert model.predicates == SYSTEM_PREDICATES
+        assert model.operators
+        assert not any(operator.absences for operator in model.operators)
+        efficiency = efficiency_of(system, truth())
+    assert efficiency is not None
+    assert len(efficiency.curve) == 2
+    assert 0 < efficiency.changing <= 1
+    assert 0 < efficiency.pairs_covered < 0.1
+    with prepared("system-absence", tmp_path, ours) as system:
+        assert any(operator.absences for operator in system.stages[-1].model.operators)
+
+
+def test_system_needs_a_source(tmp_path: Path) -> None:
+    with (
+        pytest.raises(InternalError, match="expected a source cell"),
+        prepared("system", tmp_path),
+    ):
+        pytest.fail("prepared without data")
+
+
+def test_batch_is_invented_once(tmp_path: Path) -> None:
+    with prepared("fm-invent", tmp_path) as ready:
+        assert len(ready.stages[0].model.predicates) > 0
+    folder = RunFolder.open(tmp_path / "run")
+    first, second = ((folder.iteration(number) / "decisions.json").read_text() for number in (1, 2))
+    assert first.count("one of the batch") > 3
+    assert "one of the batch" not in second
+
+
+@pytest.mark.parametrize("method", ["expert", "expert-read"])
+def test_expert_solves_a_problem(method: str, tmp_path: Path) -> None:
+    (problem,) = (
+        read_problems(reference_of("burger").problems, BurgerEnvironment()).first(1, 0, 0).problems
+    )
+    with prepared(method, tmp_path) as ready:
+        found = ready.solver.solve(problem)
+        assert efficiency_of(ready, truth()) is None
+    assert found.solved
+    assert found.budget == 1
+    assert (found.calls > 0) is (method == "expert-read")

@@ -1,0 +1,336 @@
+"""Inventing predicates: what is asked when, what is kept, and why (D6, D8, D9)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from notebook import Notebook, make_domain
+
+from skillwrapper.invention.inventor import Decision, Inventor, Verdict
+from skillwrapper.invention.vocabulary import Vocabulary
+from skillwrapper.learning.inconsistencies import Inconsistency
+from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.symbols import Predicate
+
+KITCHEN = make_domain(
+    types={"robot": (), "item": (), "place": ()},
+    objects={"r": "robot", "a": "item", "b": "item", "x": "place", "y": "place"},
+    skills={"Take": "robot item"},
+)
+EMPTY = Predicate("empty", ("robot",))
+HELD = Predicate("held", ("item",))
+FREE = Predicate("free", ("place",))
+ON = Predicate("on", ("item", "place"))
+NEAR = Predicate("near", ("item", "place"))
+ROUND = Predicate("round", ("item",))
+SHINY = Predicate("shiny", ("item",))
+
+
+class Proposer:
+    """Proposes a list of candidates each time it is asked, and remembers the questions."""
+
+    def __init__(self, *answers: Sequence[Predicate]) -> None:
+        self.answers = list(answers)
+        self.asked: list[tuple[Inconsistency, tuple[str, ...], tuple[str, ...], int]] = []
+
+    def propose(
+        self,
+        inconsistency: Inconsistency,
+        current: Sequence[Predicate],
+        rejected: Sequence[Predicate],
+        attempt: int,
+    ) -> Sequence[Predicate]:
+        self.asked.append(
+            (
+                inconsistency,
+                tuple(p.name for p in current),
+                tuple(p.name for p in rejected),
+                attempt,
+            )
+        )
+        return self.answers.pop(0) if self.answers else ()
+
+    @property
+    def kinds(self) -> list[str]:
+        return [str(question[0].kind) for question in self.asked]
+
+
+class Study:
+    """An inventor over a notebook, with all its decisions."""
+
+    def __init__(
+        self,
+        notebook: Notebook,
+        *answers: Sequence[Predicate],
+        active: Sequence[Predicate] = (),
+        dormant: Sequence[Predicate] = (),
+        **settings: object,
+    ) -> None:
+        self.proposer = Proposer(*answers)
+        self.words = Vocabulary(notebook.domain.types, (*active, *dormant))
+        for predicate in dormant:
+            self.words.set_dormant(predicate)
+        self.decisions: list[Decision] = []
+        self.inventor = Inventor(
+            notebook.fitter(),
+            self.words,
+            self.proposer,
+            LearningSettings(**settings),  # type: ignore[arg-type]
+            self.decisions.append,
+        )
+
+    def verdicts(self, *verdicts: Verdict) -> list[str]:
+        """The predicates of which that was decided."""
+        return [d.predicate.name for d in self.decisions if d.verdict in verdicts]
+
+    @property
+    def active(self) -> list[str]:
+        return [p.name for p in self.words.active]
+
+
+def full_hand() -> Notebook:
+    """Taking fails as long as something is held."""
+    notebook = Notebook(KITCHEN)
+    for item, other in (("a", "b"), ("b", "a")) * 2:
+        notebook.success(f"empty(r) round({item})", f"Take(r, {item})", f"held({item}) round(a)")
+        notebook.failure(f"held({other})", f"Take(r, {item})")
+    return notebook
+
+
+def test_what_resolves_is_kept_until_nothing_is_left() -> None:
+    study = Study(full_hand(), [EMPTY], [HELD])
+    fit = study.inventor.invent()
+    assert study.active == ["empty"]
+    assert study.verdicts(Verdict.ACCEPTED) == ["empty"]
+    assert fit.inconsistencies == ()
+    assert study.inventor.unresolved(fit) == ()
+    (decision,) = study.decisions
+    assert decision.score == 1.0
+    assert decision.inconsistency == study.proposer.asked[0][0]
+
+
+def test_nothing_inconsistent_nothing_asked() -> None:
+    study = Study(full_hand(), active=[EMPTY])
+    assert study.inventor.invent().inconsistencies == ()
+    assert study.proposer.asked == []
+    assert study.decisions == []
+
+
+def test_what_cannot_tell_the_two_apart_is_not_labelled_everywhere() -> None:
+    notebook = full_hand()
+    study = Study(notebook, [SHINY], [EMPTY])
+    study.inventor.invent()
+    rejected = study.decisions[0]
+    assert (rejected.verdict, rejected.predicate) == (Verdict.REJECTED, SHINY)
+    assert rejected.score is None
+    assert rejected.reason == "does not tell the two transitions apart"
+    assert {n for names, n in notebook.asked if names == "shiny"} == {1}
+
+
+def test_all_promising_candidates_are_labelled_in_one_go() -> None:
+    notebook = full_hand()
+    Study(notebook, [ROUND, HELD, EMPTY, SHINY]).inventor.invent()
+    together = [names for names, n in notebook.asked if names and n > 2]
+    assert together[0] == "round empty"
+
+
+def test_the_pictures_of_the_witnesses_are_labelled_for_all_candidates_in_one_go() -> None:
+    notebook = full_hand()
+    Study(notebook, [ROUND, HELD, EMPTY, SHINY]).inventor.invent()
+    assert [names for names, n in notebook.fetched if n == 1][:2] == ["round held empty shiny"] * 2
+
+
+def test_the_best_of_several_is_kept() -> None:
+    """``round`` tells the first two transitions apart as well, but not all."""
+    notebook = full_hand()
+    notebook.success("empty(r) #round", "Take(r, b)", "held(b)")
+    study = Study(notebook, [ROUND, EMPTY, SHINY])
+    study.inventor.invent()
+    assert study.active == ["empty"]
+    assert {d.predicate.name: d.verdict for d in study.decisions} == {
+        "round": Verdict.REJECTED,
+        "empty": Verdict.ACCEPTED,
+        "shiny": Verdict.REJECTED,
+    }
+
+
+def test_attempts_are_bounded() -> None:
+    """D8: until there are new data; asking again next time would not end."""
+    study = Study(full_hand(), attempts=2)
+    fit = study.inventor.invent()
+    causes = study.inventor.unresolved(fit)
+    assert {c.kind for c in causes} == {InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT}
+    assert sorted(study.proposer.kinds) == sorted(str(c.kind) for c in causes for _ in range(2))
+    assert sorted(q[3] for q in study.proposer.asked) == sorted([0, 1] * len(causes))
+    study.inventor.invent()
+    assert len(study.proposer.asked) == 2 * len(causes)
+
+
+def test_the_least_tried_cause_comes_first() -> None:
+    study = Study(full_hand(), attempts=2)
+    study.inventor.invent()
+    assert study.proposer.kinds == ["precondition", "effect"] * 2
+
+
+def test_conditions_of_the_paper_come_before_the_other_kinds() -> None:
+    notebook = Notebook(KITCHEN)
+    notebook.success("free(y)", "Take(r, a)", "held(a) free(x) free(y)")
+    notebook.failure("", "Take(r, a)", "held(a)")
+    study = Study(notebook, active=[HELD, FREE], attempts=1)
+    study.inventor.invent()
+    assert study.proposer.kinds[:3] == ["precondition", "effect", "unexplained"]
+
+
+def test_questions_in_one_iteration_are_bounded() -> None:
+    study = Study(full_hand(), attempts=9, max_inventions=3)
+    study.inventor.invent()
+    assert len(study.proposer.asked) == 3
+
+
+def test_rejected_candidates_are_told_and_not_tried_again() -> None:
+    study = Study(full_hand(), [SHINY], [SHINY, EMPTY])
+    study.inventor.invent()
+    assert study.proposer.asked[0][2] == ()
+    assert study.proposer.asked[1][2] == ("shiny",)
+    assert study.verdicts(Verdict.REJECTED) == ["shiny"]
+
+
+def test_rejections_lapse_when_the_vocabulary_changes() -> None:
+    notebook = full_hand()
+    notebook.success("empty(r) on(a, x)", "Take(r, a)", "held(a) free(x)")
+    study = Study(notebook, [ROUND, ON], [EMPTY], [FREE], [ON], attempts=5)
+    study.inventor.invent()
+    assert "empty" in study.active
+    assert study.words.rejected == () or "round" not in [p.name for p in study.words.rejected]
+
+
+def test_dormant_predicates_are_tried_before_the_model_is_asked() -> None:
+    """D9"""
+    study = Study(full_hand(), dormant=[SHINY, EMPTY])
+    fit = study.inventor.invent()
+    assert study.proposer.asked == []
+    assert study.active == ["empty"]
+    assert study.words.dormant == (SHINY,)
+    assert study.verdicts(Verdict.REVIVED) == ["empty"]
+    assert fit.inconsistencies == ()
+
+
+def test_dormant_ones_that_do_not_help_are_not_rejected() -> None:
+    study = Study(full_hand(), [EMPTY], dormant=[SHINY, NEAR])
+    study.inventor.invent()
+    assert study.words.dormant == (SHINY, NEAR)
+    assert study.proposer.asked[0][2] == ()
+    assert study.active == ["empty"]
+
+
+def test_the_score_must_be_above_the_threshold() -> None:
+    study = Study(full_hand(), [EMPTY], threshold=1.0)
+    study.inventor.invent()
+    assert study.active == []
+    assert study.decisions[0].reason == "score 1.00 is not above 1.00"
+    assert study.decisions[0].score == 1.0
+
+
+def test_a_label_that_is_unknown_resolves_nothing() -> None:
+    """D10: else whoever sees nothing where it matters would explain everything."""
+    notebook = Notebook(KITCHEN)
+    for item in "ab":
+        notebook.success(f"shiny({item})", f"Take(r, {item})", f"shiny({item}) held({item})")
+        notebook.failure(f"?shiny({item})", f"Take(r, {item})")
+    study = Study(notebook, [SHINY], active=[HELD])
+    fit = study.inventor.invent()
+    assert study.active == ["held"]
+    assert study.decisions[0].reason == "its labels of what is inconsistent are unknown"
+    assert len(fit.inconsistencies) == 2
+
+
+def test_one_unknown_label_does_not_hide_that_the_others_are_told_apart() -> None:
+    """Of the three failures of one cause, the first cannot be read."""
+    notebook = Notebook(KITCHEN)
+    for number in range(3):
+        notebook.success("empty(r)", "Take(r, a)", "held(a)")
+        notebook.failure("#1" if number else "?empty(r)", "Take(r, a)")
+    study = Study(notebook, [EMPTY], active=[HELD])
+    study.inventor.invent()
+    assert study.active == ["held", "empty"]
+
+
+def test_what_it_brings_of_the_other_kinds_is_queued() -> None:
+    """D6: ``free`` shows what success changes, but why that place? Then ``on`` is asked for."""
+    notebook = Notebook(KITCHEN)
+    for item, place in (("a", "x"), ("b", "y"), ("a", "y"), ("b", "x")):
+        before = f"empty(r) on({item}, {place})"
+        notebook.success(before, f"Take(r, {item})", f"empty(r) free({place}) #taken")
+        notebook.failure(f"on({item}, {place})", f"Take(r, {item})")
+    study = Study(notebook, [ON], active=[EMPTY, FREE])
+    fit = study.inventor.invent()
+    assert study.proposer.kinds == ["effect"]
+    assert set(study.active) == {"empty", "free", "on"}
+    assert fit.inconsistencies == ()
+
+
+def test_a_link_between_what_changed_and_what_is_unexplained() -> None:
+    """D1: neither object of ``on`` is an argument, but it joins two parts of the change."""
+    notebook = Notebook(KITCHEN)
+    near = Predicate("beside", ("item", "item"))
+    notebook.success("beside(a, b) on(b, x)", "Take(r, a)", "held(a) free(x)")
+    study = Study(notebook, [ON], active=[HELD, near, FREE])
+    fit = study.inventor.invent()
+    assert study.active == ["held", "beside", "free", "on"]
+    assert fit.inconsistencies == ()
+
+
+def test_what_does_not_touch_the_unexplained_object_is_no_candidate() -> None:
+    notebook = Notebook(KITCHEN)
+    notebook.success("on(a, y)", "Take(r, a)", "held(a) free(x)")
+    study = Study(notebook, [ON], active=[HELD, FREE], attempts=1)
+    study.inventor.invent()
+    assert study.decisions[0].reason == "does not tell the two transitions apart"
+
+
+def test_what_takes_much_more_than_it_explains_is_not_kept() -> None:
+    """``near`` explains the failure, but makes of one operator five."""
+    for better, kept in (([EMPTY], ["held", "empty"]), ([], ["held"])):
+        notebook = Notebook(KITCHEN)
+        for number, after in enumerate(("", "near(a, x)", "near(a, y)", "near(a, x) near(a, y)")):
+            notebook.success(f"empty(r) near(a, x) #{number}", "Take(r, a)", f"held(a) {after}")
+        notebook.failure("", "Take(r, a)")
+        study = Study(notebook, [NEAR], better, active=[HELD], attempts=2)
+        fit = study.inventor.invent()
+        assert study.active == kept
+        assert bool(study.inventor.unresolved(fit)) == (not better)
+        assert study.decisions[0].verdict is Verdict.REJECTED
+        assert study.decisions[0].reason == "it takes more operators than it explains transitions"
+
+
+def test_a_predicate_that_only_splits_the_data_is_taken_back() -> None:
+    notebook = Notebook(KITCHEN)
+    for number, (before, after) in enumerate(
+        (
+            ("near(a, x)", "near(a, y)"),
+            ("near(a, x) near(a, y)", ""),
+            ("", "near(a, x) near(a, y)"),
+            ("near(a, y)", ""),
+            ("near(a, y)", "near(a, x) near(a, y)"),
+        )
+    ):
+        notebook.success(f"empty(r) {before} #{number}", "Take(r, a)", f"held(a) {after}")
+        notebook.failure(f"{before} #{number}", "Take(r, a)")
+    study = Study(notebook, active=[EMPTY, HELD, NEAR])
+    fit = study.inventor.invent()
+    assert study.verdicts(Verdict.RETRACTED) == ["near"]
+    assert study.active == ["empty", "held"]
+    assert fit.inconsistencies == ()
+    assert len(fit.operators) == 1
+    (decision,) = study.decisions
+    assert (decision.inconsistency, decision.score) == (None, None)
+
+
+def test_same_questions_same_answers_same_vocabulary() -> None:
+    """D14"""
+    answers = ([SHINY, ROUND], [HELD, EMPTY], [ON], [FREE, NEAR])
+    found = [Study(full_hand(), *answers) for _ in range(2)]
+    models = [study.inventor.invent().model for study in found]
+    assert models[0] == models[1]
+    assert found[0].decisions == found[1].decisions

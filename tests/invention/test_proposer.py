@@ -1,0 +1,91 @@
+"""From an inconsistency to a question (D1: which types an invented predicate may have)."""
+
+from __future__ import annotations
+
+import pytest
+
+from skillwrapper.invention.proposer import ModelProposer
+from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
+from skillwrapper.learning.inconsistencies import Inconsistency
+from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.symbols import Atom, Predicate
+from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.world import (
+    Domain,
+    Episode,
+    Object,
+    Observation,
+    Parameter,
+    Picture,
+    Skill,
+    SkillInstance,
+    Transition,
+    TypeHierarchy,
+)
+
+KITCHEN = Domain(
+    name="kitchen",
+    agent="A robot.",
+    description="A kitchen.",
+    types=TypeHierarchy({"robot": (), "item": (), "place": (), "stove": ("place",)}),
+    objects=(
+        Object("r", ("robot",)),
+        Object("soup", ("item",)),
+        Object("stove", ("place", "stove")),
+    ),
+    skills=(
+        Skill(
+            "Swap",
+            (Parameter("robot", "robot"), Parameter("one", "item"), Parameter("two", "item")),
+        ),
+    ),
+)
+SWAP = SkillInstance("Swap", ("r", "soup", "soup"))
+KNOWN, BAD, NEW = (Predicate(name, ()) for name in ("known", "bad", "new"))
+
+
+class Adviser:
+    def __init__(self) -> None:
+        self.questions: list[InventionQuestion] = []
+
+    def invent_predicates(self, question: InventionQuestion) -> InventionAnswer:
+        self.questions.append(question)
+        return InventionAnswer((NEW,), ("line 2: no predicate",))
+
+
+def transition(number: int, success: bool) -> Transition:
+    before, after = (Observation((Picture(f"{number}{w}".encode()),)) for w in "ab")
+    return Transition(before, SWAP, success, after)
+
+
+def ask(
+    kind: InconsistencyKind, *unexplained: Atom
+) -> tuple[InventionQuestion, tuple[Transition, ...]]:
+    dataset = Dataset(KITCHEN)
+    transitions = (transition(0, True), transition(1, False))
+    dataset.add(Episode(("r", "soup", "stove"), 0, transitions))
+    second = None if kind is InconsistencyKind.UNEXPLAINED else 1
+    one = Inconsistency(kind, "Swap", 0, second, 0, ("Swap", kind, (), ()), unexplained)
+    adviser = Adviser()
+    found = ModelProposer(dataset, adviser, 4).propose(one, [KNOWN], [BAD], attempt=2)
+    assert found == (NEW,)
+    return adviser.questions[0], transitions
+
+
+@pytest.mark.parametrize("kind", [k for k in InconsistencyKind if k != "unexplained"])
+def test_two_transitions_and_the_types_of_the_skill(kind: InconsistencyKind) -> None:
+    question, transitions = ask(kind)
+    assert (question.first, question.second) == transitions
+    assert question.types == ("robot", "item")
+    assert question.kind is kind
+    assert question.skill.name == "Swap"
+    assert (question.current, question.rejected) == ((KNOWN,), (BAD,))
+    assert (question.count, question.attempt) == (4, 2)
+
+
+def test_an_unexplained_change_adds_the_types_of_its_objects() -> None:
+    free = Atom("free", ("stove",))
+    question, transitions = ask(InconsistencyKind.UNEXPLAINED, free)
+    assert (question.first, question.second) == (transitions[0], None)
+    assert question.types == ("robot", "item", "place", "stove")
+    assert question.unexplained == (free,)

@@ -1,0 +1,119 @@
+"""The vocabulary: clashes of names, widened types, and the memory of rejections (D3, D8, D9)."""
+
+from __future__ import annotations
+
+import pytest
+
+from skillwrapper.invention.vocabulary import Vocabulary
+from skillwrapper.symbols import Predicate
+from skillwrapper.world import TypeHierarchy
+
+TYPES = TypeHierarchy(
+    {
+        "robot": (),
+        "thing": (),
+        "item": ("thing",),
+        "cup": ("item",),
+        "plate": ("item",),
+        "table": ("thing",),
+    }
+)
+CLEAN_CUP = Predicate("clean", ("cup",), "the thing is clean")
+HELD = Predicate("held", ("item",))
+
+
+def vocabulary(*active: Predicate) -> Vocabulary:
+    return Vocabulary(TYPES, active)
+
+
+def test_a_new_predicate_is_fresh() -> None:
+    assert vocabulary(HELD).fresh([CLEAN_CUP]) == (CLEAN_CUP,)
+
+
+def test_known_ones_are_not() -> None:
+    words = vocabulary(HELD)
+    words.reject(CLEAN_CUP)
+    asleep = Predicate("asleep", ("robot",))
+    words.accept(asleep)
+    words.set_dormant(asleep)
+    words.reject(CLEAN_CUP)
+    assert words.fresh([HELD, CLEAN_CUP, asleep]) == ()
+    assert words.fresh([Predicate("held", ("item",), "said otherwise")]) == ()
+
+
+def test_one_of_several_with_the_same_name() -> None:
+    words = vocabulary()
+    assert words.fresh([CLEAN_CUP, CLEAN_CUP, HELD]) == (CLEAN_CUP, HELD)
+
+
+def test_another_type_widens_the_known_one() -> None:
+    """D3: to the most specific type that covers both; the meaning is the known one's."""
+    words = vocabulary(CLEAN_CUP, HELD)
+    (wider,) = words.fresh([Predicate("clean", ("plate",), "something else")])
+    assert wider == Predicate("clean", ("item",))
+    assert wider.semantics == CLEAN_CUP.semantics
+    words.accept(wider)
+    assert words.active == (HELD, wider)
+    (widest,) = words.fresh([Predicate("clean", ("table",))])
+    assert widest.types == ("thing",)
+
+
+def test_a_type_that_is_covered_already_is_nothing_new() -> None:
+    words = vocabulary(Predicate("clean", ("item",)))
+    assert words.fresh([CLEAN_CUP]) == ()
+
+
+def test_a_dormant_one_is_widened_too() -> None:
+    words = vocabulary(CLEAN_CUP)
+    words.set_dormant(CLEAN_CUP)
+    (wider,) = words.fresh([Predicate("clean", ("plate",))])
+    assert wider.types == ("item",)
+    words.accept(wider)
+    assert (words.active, words.dormant) == ((wider,), ())
+
+
+@pytest.mark.parametrize("types", [("robot",), ("cup", "cup"), ()])
+def test_without_a_common_type_it_is_renamed(types: tuple[str, ...]) -> None:
+    words = vocabulary(CLEAN_CUP)
+    (renamed,) = words.fresh([Predicate("clean", types, "new")])
+    assert renamed.name != "clean"
+    assert renamed.types == types
+    assert renamed.semantics == "new"
+    words.accept(renamed)
+    assert words.active == (CLEAN_CUP, renamed)
+    assert words.fresh([Predicate("clean", types)]) == ()
+
+
+def test_a_new_name_may_be_taken_as_well() -> None:
+    """Else accepting the one would silently replace the other."""
+    taken = Predicate("clean_robot", ("cup",))
+    words = vocabulary(CLEAN_CUP, taken)
+    (renamed,) = words.fresh([Predicate("clean", ("robot",))])
+    words.accept(renamed)
+    assert words.active == (CLEAN_CUP, taken, renamed)
+
+
+def test_a_candidate_replaces_one_of_its_name() -> None:
+    wider = Predicate("clean", ("item",))
+    assert vocabulary(CLEAN_CUP, HELD).with_candidate(wider) == (HELD, wider)
+
+
+def test_rejections_lapse_when_the_vocabulary_changes() -> None:
+    words = vocabulary(HELD)
+    words.reject(CLEAN_CUP)
+    words.reject(CLEAN_CUP)
+    assert words.rejected == (CLEAN_CUP,)
+    words.accept(Predicate("new", ()))
+    assert words.rejected == ()
+    words.reject(CLEAN_CUP)
+    words.set_dormant(HELD)
+    assert words.rejected == ()
+    assert words.dormant == (HELD,)
+
+
+def test_retracted_ones_are_all_that_is_rejected() -> None:
+    other, kept = Predicate("other", ()), Predicate("kept", ())
+    words = vocabulary(HELD, kept, other)
+    words.reject(CLEAN_CUP)
+    words.retract([HELD, other])
+    assert (words.active, words.dormant, words.rejected) == ((kept,), (), (HELD, other))

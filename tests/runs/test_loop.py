@@ -1,0 +1,280 @@
+"""Whole runs of Algorithm 1 in a folder: what is learned, what is written, what a crash does."""
+
+from __future__ import annotations
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from lamps import LampAssistant, LampEnvironment, domain_file, lamp_domain
+
+from skillwrapper.errors import ModelUnavailableError, RobotError
+from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.events import EventKind, RunEvent
+from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.loop import LearningResult, LearningRun
+from skillwrapper.symbols import Atom
+
+CONFIG = RunConfig(
+    domain="lamps",
+    iterations=3,
+    exploration=ExplorationSettings(budget=8, least_length=8, candidates=3),
+)
+
+
+class Setting:
+    """A run in a folder of its own."""
+
+    def __init__(self, path: Path, config: RunConfig = CONFIG) -> None:
+        self.path = path
+        self.config = config
+        self.events: list[RunEvent] = []
+
+    def run(
+        self,
+        environment: LampEnvironment | None = None,
+        assistant: LampAssistant | None = None,
+        **changes: object,
+    ) -> LearningResult:
+        config = self.config.model_copy(update=changes)
+        self.path.mkdir(exist_ok=True)
+        self.folder = RunFolder.create_or_resume(self.path / "run", config, domain_file(self.path))
+        return LearningRun(
+            self.folder,
+            config,
+            environment or LampEnvironment(lamp_domain(self.path)),
+            assistant or LampAssistant(),  # type: ignore[arg-type]
+            self.events.append,
+        ).run()
+
+    def files(self, *parts: str) -> dict[str, bytes]:
+        """What a run leaves that tells nothing of when it happened."""
+        root = self.folder.path
+        return {
+            str(p.relative_to(root)): p.read_bytes()
+            for part in parts
+            for p in sorted((root / part).rglob("*"))
+            if p.is_file()
+        }
+
+
+LASTING = ("model", "episodes", "iterations", "images")
+
+
+@pytest.fixture
+def whole(tmp_path: Path) -> Setting:
+    setting = Setting(tmp_path / "whole")
+    setting.run()
+    return setting
+
+
+def test_from_nothing_to_a_model_that_accounts_for_all(tmp_path: Path) -> None:
+    result = Setting(tmp_path).run()
+    assert result.executions == 24
+    assert result.iterations == 3
+    assert {"lit"} <= {p.name for p in result.fit.predicates}
+    assert result.fit.inconsistencies == ()
+    assert result.unresolved == ()
+    assert result.certificate.violations == ()
+    figures = result.to_json()
+    assert figures["inconsistencies_by_kind"] == {
+        "precondition": 0,
+        "effect": 0,
+        "determinism": 0,
+        "unexplained": 0,
+    }
+    assert figures["operators"] == len(result.fit.operators) >= 2
+
+
+def test_every_iteration_is_described(whole: Setting) -> None:
+    root = whole.folder.path
+    for number in (1, 2, 3):
+        target = whole.folder.iteration(number)
+        assert {p.name for p in target.iterdir()} == {
+            "certificate.json",
+            "decisions.json",
+            "model.json",
+            "operators.txt",
+            "predicates.yaml",
+            "summary.json",
+            "truth_table.csv",
+            "unresolved.json",
+        }
+        summary = json.loads((target / "summary.json").read_text())
+        assert summary["executions"] == 8 * number
+        assert 0 < summary["pairs_covered"] <= 1
+    assert {p.name for p in (root / "model").iterdir()} == {
+        "domain.pddl",
+        "model.json",
+        "predicates.yaml",
+    }
+    assert json.loads((root / "result.json").read_text())["iterations"] == 3
+    learned = LearnedRun.read(whole.folder)
+    assert learned.summary["executions"] == 24
+    assert [p.name for p in learned.model.predicates] == [
+        p.name for p in LearnedRun.read(RunFolder.open(root)).model.predicates
+    ]
+
+
+def test_decisions_say_why(whole: Setting) -> None:
+    decisions = json.loads((whole.folder.iteration(1) / "decisions.json").read_text())
+    verdicts = {(d["verdict"], d["predicate"]) for d in decisions}
+    assert ("rejected", "round(?lamp)") in verdicts
+    assert ("accepted", "lit(?lamp)") in verdicts
+    for decision in decisions:
+        assert decision["reason"]
+        for witness in decision.get("inconsistency", {}).get("witnesses", []):
+            for sha256 in (*witness["before"], *witness["after"]):
+                assert (whole.folder.path / "images" / f"{sha256}.png").exists()
+
+
+def test_calls_that_were_needed_are_counted_beside_those_of_asking_everything_again(
+    whole: Setting,
+) -> None:
+    """Three executions leave at most four pictures; every candidate would have all asked again."""
+    summary = json.loads((whole.folder.iteration(3) / "summary.json").read_text())
+    result = json.loads((whole.folder.path / "result.json").read_text())
+    for name in ("evaluation_calls", "evaluation_calls_reasking"):
+        assert summary[name] == result[name] > 0
+    decisions = json.loads((whole.folder.iteration(1) / "decisions.json").read_text())
+    first = json.loads((whole.folder.iteration(1) / "summary.json").read_text())
+    candidates = [d for d in decisions if d["verdict"] in {"accepted", "rejected"}]
+    header, *rows = (whole.folder.iteration(1) / "truth_table.csv").read_text().splitlines()
+    assert header
+    assert first["evaluation_calls_reasking"] == len(candidates) * len(rows)
+
+
+def test_agreement_of_votes_is_kept_for_every_predicate(tmp_path: Path) -> None:
+    class Torn(LampAssistant):
+        """Three votes, of which one says otherwise about ``lit``."""
+
+        def evaluate(self, questions):
+            return [
+                replace(answer, agreement={a: 2 / 3 if a.terms else 1.0 for a in answer.labels})
+                for answer in super().evaluate(questions)
+            ]
+
+    setting = Setting(tmp_path)
+    setting.run(assistant=Torn())
+    learned = LearnedRun.read(setting.folder)
+    assert {p.name: learned.agreement(p) for p in learned.model.predicates} == {
+        p.name: 0.6667 if p.types else 1.0 for p in learned.model.predicates
+    }
+
+
+def test_the_truth_table_has_a_row_a_picture(whole: Setting) -> None:
+    target = whole.folder.iteration(3)
+    text = (target / "truth_table.csv").read_text()
+    header, *rows = csv.reader(text.splitlines())
+    assert header[0] == "observation"
+    assert "lit(left)" in header
+    assert len(rows) == len({row[0] for row in rows})
+    for row in rows:
+        picture = (whole.folder.path / "images" / f"{row[0]}.png").read_text()
+        assert row[header.index("lit(left)")] == str(int("lit(left)" in picture))
+
+
+def test_unknown_labels_are_marked_and_counted(tmp_path: Path) -> None:
+    class Unsure(LampAssistant):
+        """Cannot tell whether the right lamp shines once the left one does."""
+
+        def evaluate(self, questions):
+            answers = super().evaluate(questions)
+            for question, answer in zip(questions, answers, strict=True):
+                right = Atom("lit", ("right",))
+                if b"lit(left)" in question.observation.pictures[0].png and right in answer.labels:
+                    answer.labels[right] = None
+            return answers
+
+    setting = Setting(tmp_path)
+    result = setting.run(assistant=Unsure())
+    certificate = result.certificate
+    assert certificate.undecided > 0
+    assert certificate.decided + certificate.undecided == certificate.transitions == 24
+    assert ",?" in (setting.folder.iteration(3) / "truth_table.csv").read_text()
+
+
+def test_same_settings_same_run(whole: Setting, tmp_path: Path) -> None:
+    """D14"""
+    again = Setting(tmp_path / "again")
+    again.run()
+    assert again.files(*LASTING) == whole.files(*LASTING)
+
+
+def test_another_seed_another_run(whole: Setting, tmp_path: Path) -> None:
+    other = Setting(tmp_path / "other", CONFIG.model_copy(update={"seed": 1}))
+    other.run()
+    assert other.files("episodes") != whole.files("episodes")
+
+
+@pytest.mark.parametrize("skills", [0, 5, 8, 13, 23])
+def test_a_run_that_broke_down_ends_in_the_same_model(
+    whole: Setting, tmp_path: Path, skills: int
+) -> None:
+    broken = Setting(tmp_path / "broken")
+    with pytest.raises(RobotError):
+        broken.run(LampEnvironment(lamp_domain(tmp_path), stops_after=skills))
+    assert broken.run().to_json() == json.loads((whole.folder.path / "result.json").read_text())
+    assert broken.files(*LASTING) == whole.files(*LASTING)
+
+
+def test_a_model_that_does_not_answer_stops_the_run_and_loses_nothing(
+    whole: Setting, tmp_path: Path
+) -> None:
+    class Silent(LampAssistant):
+        def __init__(self) -> None:
+            self.left = 3
+
+        def evaluate(self, questions):
+            if self.left == 0:
+                raise ModelUnavailableError("no answer")
+            self.left -= 1
+            return super().evaluate(questions)
+
+    broken = Setting(tmp_path / "broken")
+    with pytest.raises(ModelUnavailableError):
+        broken.run(assistant=Silent())
+    broken.run()
+    assert broken.files(*LASTING) == whole.files(*LASTING)
+
+
+def test_a_finished_run_executes_nothing_more(whole: Setting) -> None:
+    before = whole.files(*LASTING)
+    events = whole.folder.events.read_bytes()
+    whole.run(LampEnvironment(lamp_domain(whole.path), stops_after=0))
+    assert whole.files(*LASTING) == before
+    assert whole.folder.events.read_bytes() == events
+
+
+def test_more_iterations_go_on_where_it_ended(whole: Setting, tmp_path: Path) -> None:
+    environment = LampEnvironment(lamp_domain(whole.path))
+    result = whole.run(environment, iterations=4)
+    assert len(environment.executed) == 8
+    assert environment.resets == [4]
+    straight = Setting(tmp_path / "straight")
+    assert straight.run(iterations=4).to_json() == result.to_json()
+    assert straight.files(*LASTING) == whole.files(*LASTING)
+
+
+def test_every_iteration_starts_with_a_reset_of_its_own(tmp_path: Path) -> None:
+    """D16"""
+    environment = LampEnvironment(lamp_domain(tmp_path))
+    Setting(tmp_path, CONFIG.model_copy(update={"seed": 2})).run(environment)
+    assert environment.resets == [2001, 2002, 2003]
+
+
+def test_whoever_watches_is_told(whole: Setting) -> None:
+    kinds = [e.kind for e in whole.events]
+    assert kinds[0] is EventKind.ITERATION_STARTED
+    assert kinds.count(EventKind.SEQUENCE_CHOSEN) == 3
+    assert kinds.count(EventKind.SKILL_EXECUTED) == 24
+    assert kinds.count(EventKind.ITERATION_FINISHED) == 3
+    assert EventKind.PREDICATE_DECIDED in kinds
+    lines = [json.loads(line) for line in whole.folder.events.read_text().splitlines()]
+    assert [line["event"] for line in lines] == [str(k) for k in kinds]
+    chosen = next(e for e in whole.events if e.kind is EventKind.SEQUENCE_CHOSEN)
+    assert set(chosen.data) == {"sequence", "scores", "pareto", "notes"}

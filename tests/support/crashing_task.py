@@ -1,0 +1,21 @@
+"""A task that kills its own process the first time it is run for some cells."""
+
+from __future__ import annotations
+
+import os
+import signal
+from pathlib import Path
+
+from skillwrapper.evaluation.benchmark.workers import CellOutcome
+from skillwrapper.evaluation.methods.method import Cell
+
+
+def crash_once(path: Path, cell: Cell) -> CellOutcome:
+    """Seed 1 is killed once, seed 9 always; all others leave a file behind."""
+    path.mkdir(parents=True, exist_ok=True)
+    mark = path / f"crashed-{cell.seed}"
+    if cell.seed == 9 or (cell.seed == 1 and not mark.exists()):
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    (path / cell.name).touch()
+    return CellOutcome(cell)
