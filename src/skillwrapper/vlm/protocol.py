@@ -61,15 +61,18 @@ class ModelReply:
     """What a model answered.
 
     Attributes:
-        text: the reply, not empty.
+        text: the reply; not empty, unless it was cut off.
         usage: what it took.
         taken_back: whether the reply was of no use when it came. It then tells how a question
             went, so that it is asked again in the same way, and must not be taken for an answer.
+        cut_off: whether it ends where the output limit was reached (finish reason ``length``),
+            perhaps before the model said anything but its reasoning. Never taken for an answer.
     """
 
     text: str
     usage: Usage = field(default_factory=Usage)
     taken_back: bool = False
+    cut_off: bool = False
 
 
 class VisionLanguageModel(Protocol):
