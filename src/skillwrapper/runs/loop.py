@@ -45,6 +45,7 @@ from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -183,15 +184,14 @@ class LearningRun:
 
     def _explore(self) -> Episode:
         seed = self._config.layout_seed(self._iteration)
-        return self._recorder.run(self._iteration, seed, self._choose, self._executed)
+        scenes = tuple(self.dataset.domain.scenes)
+        scene = scenes[(self._iteration - 1) % len(scenes)]
+        return self._recorder.run(self._iteration, seed, scene, self._choose, self._executed)
 
-    def _choose(
-        self, scene: tuple[str, ...], observation: Observation
-    ) -> tuple[SkillInstance, ...]:
+    def _choose(self, scene: Scene, observation: Observation) -> tuple[SkillInstance, ...]:
         fit = self._fitter.fit(self._vocabulary.active)
-        objects = self.dataset.domain.scene_objects(scene)
-        state = self.truth.labels(AtomSpace(fit.predicates, objects), [observation])[0]
-        situation = Situation(objects, observation, state, fit.model, find_untested(fit))
+        state = self.truth.labels(AtomSpace(fit.predicates, scene.objects), [observation])[0]
+        situation = Situation(scene.objects, observation, state, fit.model, find_untested(fit))
         choice = self._explorer.choose(situation)
         self._tell(EventKind.SEQUENCE_CHOSEN, **_describe_choice(choice))
         return choice.sequence
