@@ -72,7 +72,7 @@ def test_scenes_name_sets_of_objects(tmp_path: Path) -> None:
         ("  - arm", "  - arm\n  - leg", 25, "unknown object in scene 'bare' 'leg'"),
         ("[apple, arm]", "[]", 22, "expected scene 'full' to name at least one object"),
         ("[apple, arm]", "[arm, arm]", 22, "and each once"),
-        ("[apple, arm]", "apple", 22, "'scenes.full': Input should be a valid list"),
+        ("[apple, arm]", "apple", 22, "'scenes.full': expected a list"),
     ],
 )
 def test_mistake_in_a_scene_is_named_with_its_line(
@@ -92,7 +92,7 @@ def test_mistake_in_a_scene_is_named_with_its_line(
         ("agent:", "agnet:", 2, "did you mean 'agent'?"),
         ("name: kitchen", "name: 3 kitchens", 1, "'name': String should match"),
         ("parents: [food]", "parents: [foot]", 8, "unknown type 'foot'; did you mean 'food'"),
-        ("parents: [food]", "parents: food", 8, "valid list, got 'food'"),
+        ("parents: [food]", "parents: food", 8, "expected a list, got 'food'"),
         ("    types: [fruit]", "    types: []", 13, "at least 1 item"),
         ("    types: [fruit]", "    types: [fruits]", 13, "unknown type 'fruits'"),
         ("name: food, type: food", "name: food, type: fod", 20, "unknown type 'fod'"),

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from skillwrapper.errors import RobotError, RunFolderError
-from skillwrapper.files.writing import append_line, read_lines
+from skillwrapper.files.json_documents import read_lines
+from skillwrapper.files.writing import append_line
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import Environment
