@@ -18,7 +18,7 @@ from skillwrapper.files.writing import append_line, write_json
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.invention.batch import BatchInventor
 from skillwrapper.invention.convergence import Convergence
-from skillwrapper.invention.inventor import Decision, Inventor, Verdict
+from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
 from skillwrapper.invention.proposer import ModelProposer
 from skillwrapper.invention.pruning import Pruned, prune
 from skillwrapper.invention.vocabulary import Vocabulary
@@ -226,7 +226,7 @@ class LearningRun:
         }
         write_json(target / "summary.json", summary)
 
-    def _decided(self, decision: Decision) -> None:
+    def _decided(self, decision: CandidateDecision) -> None:
         if self._is_invention(decision):
             vocabulary = self._vocabulary.with_candidate(decision.predicate)
             self._readings.count_invention(self._everything(vocabulary))
@@ -242,7 +242,7 @@ class LearningRun:
         self._decisions.append(entry)
         self._tell(EventKind.PREDICATE_DECIDED, **entry)
 
-    def _is_invention(self, decision: Decision) -> bool:
+    def _is_invention(self, decision: CandidateDecision) -> bool:
         """Whether a candidate is new; one that is taken in the end after all was counted before."""
         if decision.inconsistency is None:
             return False
