@@ -14,7 +14,7 @@ import pytest
 from skillwrapper.cli.main import main
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
-from skillwrapper.embedded.server_faults import Fault, FaultPlan
+from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.assistants import Spending
@@ -97,7 +97,7 @@ def test_a_run_over_http_learns_the_same_and_keeps_no_key(
 
 
 def test_a_run_survives_faults(direct: dict[str, bytes], tmp_path: Path) -> None:
-    ways = (*Fault, Fault.NONSENSE, Fault.NONSENSE)
+    ways = (*PASSING, NONSENSE, NONSENSE)
     faults = FaultPlan(rate=0.3, kinds=ways, seed=1, retry_after=0.01, slowness=0.01)
     with VlmServer(EmbeddedModel(1), ServerSettings(faults=faults)) as server:
         learn(over(server, parallel=4), tmp_path / "run", None, FAST)

@@ -46,8 +46,9 @@ def explorer(proposer: Proposer, seed: int = 0, **settings: object) -> Explorer:
 
 
 def episode(*steps: tuple[SkillInstance, bool]) -> Episode:
-    transitions = tuple(Transition(SEEN, i, success, SEEN) for i, success in steps)
-    return Episode(GARDEN.scene(), 0, transitions)
+    return Episode(
+        ("left", "right"), 0, tuple(Transition(SEEN, i, success, SEEN) for i, success in steps)
+    )
 
 
 def test_the_best_by_both_scores_is_chosen() -> None:

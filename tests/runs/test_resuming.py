@@ -17,7 +17,7 @@ import pytest
 
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
-from skillwrapper.embedded.server_faults import Fault, FaultPlan
+from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError, ModelNotFoundError, RunFolderError
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.assistants import Spending
@@ -34,7 +34,7 @@ from skillwrapper.vlm.wrapping import ModelWrapper
 
 FAST = Spending(policy=RetryPolicy(first_wait=0.002, longest_wait=0.01))
 FAULTS = FaultPlan(
-    rate=0.3, kinds=(*Fault, *[Fault.NONSENSE] * 4), seed=2, retry_after=0.01, slowness=0.01
+    rate=0.3, kinds=(*PASSING, *[NONSENSE] * 4), seed=2, retry_after=0.01, slowness=0.01
 )
 
 

@@ -15,7 +15,6 @@ from skillwrapper.world import (
     Outcome,
     Parameter,
     Picture,
-    Scene,
     Skill,
     SkillInstance,
     TypeHierarchy,
@@ -48,11 +47,10 @@ class LampEnvironment:
         return LAMP_DOMAIN
 
     @property
-    def scene(self) -> Scene:
-        return self.domain.scene()
+    def scene(self) -> tuple[str, ...]:
+        return ("hand", "lamp")
 
-    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
-        self.domain.scene(scene)
+    def reset(self, *, seed: int) -> Observation:
         return self.set_state(False, seed=seed)
 
     def execute(self, instance: SkillInstance) -> Outcome:

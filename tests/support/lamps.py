@@ -21,7 +21,6 @@ from skillwrapper.world import (
     Observation,
     Outcome,
     Picture,
-    Scene,
     SkillInstance,
     ground_skills,
     load_domain,
@@ -69,11 +68,10 @@ class LampEnvironment:
         return self._domain
 
     @property
-    def scene(self) -> Scene:
-        return self.domain.scene()
+    def scene(self) -> tuple[str, ...]:
+        return tuple(o.name for o in self._domain.objects)
 
-    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
-        self.domain.scene(scene)
+    def reset(self, *, seed: int) -> Observation:
         self._seed, self._lit = seed, frozenset()
         self.resets.append(seed)
         return self.observe()

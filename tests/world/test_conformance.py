@@ -10,16 +10,7 @@ from lamp_environment import LAMP_DOMAIN, LampEnvironment
 from PIL import Image
 
 from skillwrapper.errors import ConformanceError
-from skillwrapper.world import (
-    Domain,
-    Environment,
-    Object,
-    Observation,
-    Outcome,
-    Picture,
-    Scene,
-    SkillInstance,
-)
+from skillwrapper.world import Domain, Environment, Observation, Outcome, Picture, SkillInstance
 from skillwrapper.world.conformance import check_environment
 
 
@@ -44,32 +35,14 @@ class WrongErrorBeforeReset(LampEnvironment):
 
 class StrangeObject(LampEnvironment):
     @property
-    def scene(self) -> Scene:
-        return Scene("default", (*LAMP_DOMAIN.objects, Object("elephant", ("lamp",))))
+    def scene(self) -> tuple[str, ...]:
+        return ("hand", "lamp", "elephant")
 
 
 class WrongOrder(LampEnvironment):
     @property
-    def scene(self) -> Scene:
-        return Scene("default", LAMP_DOMAIN.objects[::-1])
-
-
-class OneSceneForAll(LampEnvironment):
-    """Takes no notice of the scene it is asked for."""
-
-    @property
-    def domain(self) -> Domain:
-        objects = LAMP_DOMAIN.objects
-        return replace(LAMP_DOMAIN, declared_scenes=(Scene("lit", objects), Scene("bare", objects)))
-
-    @property
-    def scene(self) -> Scene:
-        return self.domain.scene("lit")
-
-
-class AnyScene(LampEnvironment):
-    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
-        return super().reset(seed=seed)
+    def scene(self) -> tuple[str, ...]:
+        return ("lamp", "hand")
 
 
 class NoPictures(LampEnvironment):
@@ -108,14 +81,13 @@ class RandomStart(LampEnvironment):
         super().__init__()
         self._resets = 0
 
-    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+    def reset(self, *, seed: int) -> Observation:
         self._resets += 1
-        return super().reset(seed=seed + self._resets, scene=scene)
+        return super().reset(seed=seed + self._resets)
 
 
 class ForgetsToReset(LampEnvironment):
-    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
-        self.domain.scene(scene)
+    def reset(self, *, seed: int) -> Observation:
         return self.set_state(self._lit, seed=seed)
 
 
@@ -173,8 +145,6 @@ def test_failures_may_change_something_unless_declared_otherwise() -> None:
         (WrongErrorBeforeReset, "before reset"),
         (StrangeObject, "scene"),
         (WrongOrder, "scene"),
-        (OneSceneForAll, "scene"),
-        (AnyScene, "scene"),
         (NoPictures, "pictures"),
         (SameCameraTwice, "pictures"),
         (Jpeg, "pictures"),

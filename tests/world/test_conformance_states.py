@@ -51,8 +51,7 @@ class LayoutDrifts(LampEnvironment):
 
 
 class LayoutOfReset(LampEnvironment):
-    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
-        self.domain.scene(scene)
+    def reset(self, *, seed: int) -> Observation:
         return super().set_state(False, seed=seed + 7)
 
 

@@ -15,7 +15,7 @@ from skillwrapper.cli.model_options import BaseUrlOption, PromptsOption
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
-from skillwrapper.embedded.server_faults import FaultPlan
+from skillwrapper.embedded.server_faults import FAULTS, FaultPlan
 from skillwrapper.runs.config import ModelSettings
 from skillwrapper.runs.doctor import examine
 from skillwrapper.runs.folder import RunFolder
@@ -89,11 +89,25 @@ def doctor(
 def vlm_server(
     port: Annotated[int, typer.Option(min=0, max=65535, help="On 127.0.0.1; 0 for any.")] = 8000,
     latency: Annotated[float, typer.Option(min=0.0, help="Seconds that a call takes.")] = 0.0,
-    faults: Annotated[float, typer.Option(min=0.0, max=1.0, help="Share of failing calls.")] = 0.0,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(help="A fault that calls have; may be repeated; see --list-faults."),
+    ] = None,
+    faults: Annotated[
+        float | None,
+        typer.Option(min=0.0, max=1.0, help="Share of failing calls; all if a fault is named."),
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the model, and of what fails.")] = 0,
+    list_faults: Annotated[
+        bool, typer.Option("--list-faults", help="Print the names of all faults; serve nothing.")
+    ] = False,
 ) -> None:
     """Serve the embedded model to any client of the chat-completions protocol."""
-    settings = ServerSettings(port, latency, FaultPlan(rate=faults, seed=seed))
+    if list_faults:
+        for name, summary in FAULTS.items():
+            typer.echo(f"{name:20} {summary}")
+        return
+    settings = ServerSettings(port, latency, FaultPlan.of_names(fault or (), faults, seed))
     server = VlmServer(EmbeddedModel(seed), settings)
     messages().print(
         f"serving the model 'embedded' at {server.url}; stop with Ctrl-C\n"

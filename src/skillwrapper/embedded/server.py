@@ -13,21 +13,32 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from types import TracebackType
 from typing import Any, Self
 
-from skillwrapper.embedded.server_faults import Fault, FaultChooser, FaultPlan
-from skillwrapper.errors import ConfigurationError
-from skillwrapper.vlm.chat_protocol import (
+from skillwrapper.embedded import server_faults as faults
+from skillwrapper.embedded.canned_errors import (
+    CANNED_ERRORS,
+    Call,
+    CannedError,
+    echoed_key,
+    rate_limit,
+)
+from skillwrapper.embedded.chat_protocol import (
     BadChatRequestError,
     completion,
     error_body,
+    in_parts,
+    in_reasoning,
     read_request,
     refusal,
     without_choice,
 )
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
+from skillwrapper.embedded.server_faults import FaultChooser, FaultPlan
+from skillwrapper.embedded.spoilt_replies import FINISH_REASONS, spoilt
+from skillwrapper.errors import ConfigurationError
+from skillwrapper.vlm.protocol import ModelRequest, VisionLanguageModel
 
 SEEING, BLIND = "embedded", "embedded-blind"
 """The models that the server has: the embedded model, and one that accepts no pictures."""
-_NONSENSE = "Colourless green ideas sleep furiously."
+_DRIPS, _DRIP_EVERY = 10_000, 0.05
 
 
 @dataclass(frozen=True)
@@ -98,12 +109,18 @@ class VlmServer:
 
 @dataclass(frozen=True)
 class _Answer:
-    """Status, body and headers; a body may be sent only in part."""
+    """Status, body (JSON data, or text that is none) and headers; some are sent in part."""
 
     status: int
-    body: Mapping[str, Any]
+    body: object
     headers: Mapping[str, str] = field(default_factory=dict)
+    content_type: str = "application/json"
     share: float = 1.0
+    drips: bool = False
+
+    @classmethod
+    def of_error(cls, error: CannedError) -> _Answer:
+        return cls(error.status, error.body, error.headers, error.content_type)
 
 
 class _Service:
@@ -131,41 +148,59 @@ class _Service:
             name, request = read_request(body)
         except BadChatRequestError as error:
             return _Answer(400, error_body(str(error), "invalid_request_error"))
-        if name not in {SEEING, BLIND}:
-            message = f"The model '{name}' does not exist; there are {SEEING} and {BLIND}"
-            return _Answer(404, error_body(message, "invalid_request_error", "model_not_found"))
-        if name == BLIND and request.pictures:
-            message = "This model does not accept image input"
-            return _Answer(400, error_body(message, "invalid_request_error"))
+        unable = _unable(name, request)
+        if unable is not None:
+            return unable
         with self._lock:
             self.calls += 1
             fault = self._chooser.choose(hashlib.sha256(body).hexdigest())
         time.sleep(self._settings.latency)
-        return self._answer(name, request, fault)
-
-    def _answer(self, name: str, request: ModelRequest, fault: Fault | None) -> _Answer | None:
-        plan = self._settings.faults
-        if fault is Fault.CUT:
+        if fault == faults.CUT:
             return None
-        if fault is Fault.RATE_LIMIT:
-            return _Answer(
-                429,
-                error_body("Rate limit reached", "rate_limit_error", "rate_limit_exceeded"),
-                {"Retry-After": f"{plan.retry_after:g}"},
-            )
-        if fault is Fault.SERVER_ERROR:
+        call = Call(json.loads(body), authorization)
+        return self._error(call, fault) or self._answer(name, request, fault, call)
+
+    def _error(self, call: Call, fault: str | None) -> _Answer | None:
+        """The answer of a fault that keeps the model from being asked."""
+        error = CANNED_ERRORS.get(fault or "")
+        if error is not None:
+            return _Answer.of_error(error) if error.when(call) else None
+        if fault in {faults.RATE_LIMIT, faults.RATE_LIMIT_DATE}:
+            as_date = fault == faults.RATE_LIMIT_DATE
+            return _Answer.of_error(rate_limit(self._settings.faults.retry_after, as_date=as_date))
+        if fault == faults.KEY_IN_ERROR:
+            return _Answer.of_error(echoed_key(call))
+        if fault == faults.SERVER_ERROR:
             return _Answer(500, error_body("The server had an error", "server_error"))
-        if fault is Fault.SLOW:
-            time.sleep(plan.slowness)
-        reply = self._model.complete(request)
-        if fault is Fault.REFUSAL:
-            return _Answer(200, refusal(name, reply))
-        if fault is Fault.EMPTY:
-            return _Answer(200, without_choice(name, reply))
-        if fault is Fault.NONSENSE:
-            reply = ModelReply(_NONSENSE, reply.usage)
-        share = 0.5 if fault is Fault.TRUNCATED else 1.0
-        return _Answer(200, completion(name, request, reply), share=share)
+        return None
+
+    def _answer(self, name: str, request: ModelRequest, fault: str | None, call: Call) -> _Answer:
+        """The model's answer, in the form that a fault gives it."""
+        if fault == faults.SLOW:
+            time.sleep(self._settings.faults.slowness)
+        reply = spoilt(self._model.complete(request), fault, call.authorization)
+        bodies = {
+            faults.REFUSAL: lambda: refusal(name, reply),
+            faults.EMPTY: lambda: without_choice(name, reply),
+            faults.CONTENT_PARTS: lambda: in_parts(name, reply),
+            faults.REASONING_FIELD: lambda: in_reasoning(name, reply),
+        }
+        if fault in bodies:
+            return _Answer(200, bodies[fault]())
+        body = completion(name, reply, FINISH_REASONS.get(fault or "", "stop"))
+        share = 0.5 if fault == faults.TRUNCATED else 1.0
+        return _Answer(200, body, share=share, drips=fault == faults.DRIP)
+
+
+def _unable(name: str, request: ModelRequest) -> _Answer | None:
+    """The answer for a model that there is not, or that cannot do what is asked."""
+    if name not in {SEEING, BLIND}:
+        message = f"The model '{name}' does not exist; there are {SEEING} and {BLIND}"
+        return _Answer(404, error_body(message, "invalid_request_error", "model_not_found"))
+    if name == BLIND and request.pictures:
+        message = "This model does not accept image input"
+        return _Answer(400, error_body(message, "invalid_request_error"))
+    return None
 
 
 class _HttpServer(ThreadingHTTPServer):
@@ -208,16 +243,28 @@ class _Handler(BaseHTTPRequestHandler):
         """Nothing is logged: requests may carry keys."""
 
     def _send(self, answer: _Answer) -> None:
-        data = json.dumps(answer.body).encode()
-        data = data[: max(1, int(len(data) * answer.share))]
+        text = answer.body if isinstance(answer.body, str) else json.dumps(answer.body)
+        data = text.encode()
+        data = data[: int(len(data) * answer.share)]
         self.send_response(answer.status)
-        self.send_header("Content-Type", "application/json")
-        self.send_header("Content-Length", str(len(data)))
+        self.send_header("Content-Type", answer.content_type)
+        self.send_header("Content-Length", str(len(data) + _DRIPS * answer.drips))
         for name, value in answer.headers.items():
             self.send_header(name, value)
         self.end_headers()
+        if answer.drips:
+            self._drip()
         self.wfile.write(data)
         self.wfile.flush()
+
+    def _drip(self) -> None:
+        """Blanks before the answer, as some servers send to keep a connection open."""
+        for _ in range(_DRIPS):
+            if self.server.service.closed:
+                break
+            self.wfile.write(b" ")
+            self.wfile.flush()
+            time.sleep(_DRIP_EVERY)
 
     def _hang_up(self) -> None:
         self.close_connection = True

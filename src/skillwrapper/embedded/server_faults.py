@@ -3,24 +3,52 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
+from types import MappingProxyType
 
+from skillwrapper.embedded.canned_errors import CANNED_ERRORS
 from skillwrapper.embedded.chance import Chance
-from skillwrapper.errors import ConfigurationError
+from skillwrapper.errors import ConfigurationError, UnknownNameError
 
+RATE_LIMIT, SERVER_ERROR, SLOW, CUT = "rate-limit", "server-error", "slow", "cut"
+TRUNCATED, EMPTY, REFUSAL, NONSENSE = "truncated", "empty", "refusal", "nonsense"
+RATE_LIMIT_DATE, DRIP, CUT_OFF, CUT_OFF_THINKING = (
+    "rate-limit-date", "drip", "cut-off", "cut-off-thinking",
+)  # fmt: skip
+CONTENT_PARTS, REASONING_FIELD, FILTERED = "content-parts", "reasoning-field", "filtered"
+KEY_IN_ERROR, KEY_IN_REPLY = "key-in-error", "key-in-reply"
+ALL_TRUE, ALL_FALSE, DEAF = "all-true", "all-false", "deaf"
 
-class Fault(StrEnum):
-    """What can go wrong with a call."""
+PASSING = (RATE_LIMIT, SERVER_ERROR, SLOW, CUT, TRUNCATED, EMPTY, REFUSAL, NONSENSE)
+"""Faults after which another attempt may work."""
 
-    RATE_LIMIT = "rate-limit"
-    SERVER_ERROR = "server-error"
-    SLOW = "slow"
-    CUT = "cut"
-    TRUNCATED = "truncated"
-    EMPTY = "empty"
-    REFUSAL = "refusal"
-    NONSENSE = "nonsense"
+FAULTS: Mapping[str, str] = MappingProxyType(
+    {
+        RATE_LIMIT: "status 429, says how long to wait",
+        RATE_LIMIT_DATE: "status 429, says until when to wait",
+        SERVER_ERROR: "status 500 without a reason",
+        SLOW: "the answer comes late",
+        DRIP: "the answer comes in single bytes and does not end",
+        CUT: "the connection is cut",
+        TRUNCATED: "half of the body",
+        EMPTY: "an answer without a choice",
+        REFUSAL: "the model refuses",
+        FILTERED: "finish reason content_filter",
+        NONSENSE: "an answer that is none to the question",
+        CUT_OFF: "half of the answer, finish reason length",
+        CUT_OFF_THINKING: "no answer, finish reason length",
+        CONTENT_PARTS: "the answer as a list of parts",
+        REASONING_FIELD: "the answer in the field for reasoning",
+        KEY_IN_ERROR: "status 401 that repeats the key",
+        KEY_IN_REPLY: "an answer that repeats the key",
+        ALL_TRUE: "every label is true, whatever is shown",
+        ALL_FALSE: "every label is false, whatever is shown",
+        DEAF: "the same answer, whatever is asked",
+        **{name: error.summary for name, error in CANNED_ERRORS.items()},
+    }
+)
+"""What every fault is, by its name."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +64,11 @@ class FaultPlan:
 
     Raises:
         ConfigurationError: if the rate is no share, or calls should fail in no way.
+        UnknownNameError: if there is no such fault.
     """
 
     rate: float = 0.0
-    kinds: tuple[Fault, ...] = tuple(Fault)
+    kinds: tuple[str, ...] = PASSING
     seed: int = 0
     retry_after: float = 0.05
     slowness: float = 0.5
@@ -49,6 +78,22 @@ class FaultPlan:
             raise ConfigurationError(f"'faults': expected a share from 0 to 1, got {self.rate}")
         if self.rate and not self.kinds:
             raise ConfigurationError("'faults': expected at least one kind of fault, got none")
+        for kind in self.kinds:
+            if kind not in FAULTS:
+                raise UnknownNameError("fault", kind, FAULTS)
+
+    @classmethod
+    def of_names(cls, names: Iterable[str], rate: float | None, seed: int) -> FaultPlan:
+        """The plan of a command line.
+
+        Args:
+            names: of the faults; empty for those that pass.
+            rate: share of failing calls; None for all where faults are named, else for none.
+            seed: decides which calls fail.
+        """
+        kinds = tuple(dict.fromkeys(names))
+        share = rate if rate is not None else float(bool(kinds))
+        return cls(share, kinds or PASSING, seed)
 
 
 class FaultChooser:
@@ -62,7 +107,7 @@ class FaultChooser:
         self._plan = plan
         self._asked: Counter[str] = Counter()
 
-    def choose(self, question: str) -> Fault | None:
+    def choose(self, question: str) -> str | None:
         """The fault of the next call with a question; None for an answer.
 
         Args:

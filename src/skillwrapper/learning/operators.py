@@ -31,7 +31,7 @@ class LearnedOperator:
     cluster: Cluster
 
 
-def cluster_operators(
+def learn_operators(
     domain: Domain,
     skill: Skill,
     data: SkillData,

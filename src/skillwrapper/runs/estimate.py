@@ -8,7 +8,8 @@ from types import MappingProxyType
 from typing import Any
 
 from skillwrapper.runs.config import ModelSettings, RunConfig
-from skillwrapper.vlm.prices import Price, list_price
+from skillwrapper.vlm.openai_connection import endpoint_address
+from skillwrapper.vlm.prices import CallCost, nothing, price_of
 from skillwrapper.vlm.protocol import Role
 
 # Measured on burger with the embedded model: five runs of 5 x 15 and 10 x 30 executions.
@@ -119,24 +120,21 @@ def _of_role(settings: ModelSettings, role: Role, calls: tuple[int, int]) -> Rol
     model = settings.roles.get(role, settings.name)
     (low, high), (tokens_in, tokens_out) = calls, _TOKENS[role]
     price = _price(model, settings.base_url)
-    cost = price and (
-        price.cost(low * tokens_in, low * tokens_out) or 0.0,
-        price.cost(high * tokens_in, high * tokens_out) or 0.0,
-    )
+    each = price(tokens_in, tokens_out) if price else None
     return RoleEstimate(
         role,
         model,
         calls,
         (low * tokens_in, high * tokens_in),
         (low * tokens_out, high * tokens_out),
-        cost or None,
+        None if each is None else (low * each, high * each),
     )
 
 
-def _price(model: str, base_url: str | None) -> Price | None:
+def _price(model: str, base_url: str | None) -> CallCost | None:
     """What a model costs; ours and recordings cost nothing, others may be unknown."""
     kind, _, name = model.partition(":")
-    return list_price(name, base_url) if kind == "openai" else Price(0.0, 0.0)
+    return price_of(name, endpoint_address(base_url)) if kind == "openai" else nothing
 
 
 def _sums(pairs: Iterable[tuple[int, int]]) -> tuple[int, int]:

@@ -1,28 +1,35 @@
-"""From the exceptions of the ``openai`` client to ours. The key never gets into a message."""
+"""From the exceptions of the ``openai`` client to ours. No secret gets into a message."""
 
 from __future__ import annotations
 
-import re
+import json
+import socket
+import ssl
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import openai
 
 from skillwrapper.errors import (
-    AuthenticationError,
-    ModelCapabilityError,
+    ConfigurationError,
     ModelNotFoundError,
-    ModelUnavailableError,
     ProviderError,
+    SkillWrapperError,
     TemporaryProviderError,
 )
+from skillwrapper.redaction import Redactor
+from skillwrapper.vlm.provider_errors import CHECK_ADDRESS, row_of
+from skillwrapper.vlm.retry_after import wait_asked_for
 
-_TEMPORARY = frozenset({408, 409, 425, 429})
-_LOOKS_LIKE_A_KEY = re.compile(r"\b(?:sk|pk|key|AIza|Bearer)[-_ ][\w*.-]{6,}|AIza[\w-]{10,}")
-_PICTURES = re.compile(r"image|vision|multi-?modal|picture", re.IGNORECASE)
-_NO_CREDIT = re.compile(r"insufficient_quota|billing|credit", re.IGNORECASE)
-_TOO_LONG = re.compile(r"context.{0,10}(?:length|window)|too many tokens", re.IGNORECASE)
-_NO_MODEL = re.compile(r"model.{0,60}(?:not found|not exist|unknown|invalid)|model_not_found", re.I)
-_LONGEST_QUOTE = 200
+_LONGEST_QUOTE = 300
+_LONGEST_READ = 20_000
+_PAGE_STARTS = ("<!doctype", "<html", "<?xml", "<head", "<body")
+_SELF_SIGNED = frozenset({18, 19})
+_EXPIRED, _OTHER_NAME = 10, 62
+
+
+class NobodyAnswersError(TemporaryProviderError):
+    """No connection could be made at all; lasting, unless there was one before."""
 
 
 @dataclass(frozen=True)
@@ -31,93 +38,137 @@ class ErrorTranslator:
 
     Attributes:
         model: provider and model, for messages.
-        endpoint: address of the endpoint, for messages.
-        key: the secret that must not be repeated.
+        endpoint: address of the endpoint, for messages; without credentials.
+        redactor: knows the secrets that must not be repeated.
     """
 
     model: str
     endpoint: str
-    key: str = field(repr=False)
+    redactor: Redactor = field(default_factory=Redactor)
 
-    def translate(self, error: Exception) -> ProviderError:
+    def translate(self, error: Exception) -> SkillWrapperError:
         """Our exception for one of the client's."""
         if isinstance(error, openai.APITimeoutError):
             return TemporaryProviderError(f"{self.endpoint} did not answer in time")
         if isinstance(error, openai.APIConnectionError):
             return self._of_connection(error)
         if isinstance(error, openai.APIStatusError):
-            return self._of_status(error)
-        # A reply that is no JSON, or JSON of another shape: a proxy's page, a cut-off body.
+            return self.refused(error.status_code, error.body, error.response.headers)
+        if isinstance(error, UnicodeError):
+            return ConfigurationError(
+                f"{self.model}: the prompt or a header holds a character that cannot be sent"
+            )
         return TemporaryProviderError(
-            f"{self.endpoint} sent something that is no chat completion "
-            f"({type(error).__name__}); is it an OpenAI-compatible endpoint?"
+            f"the call to {self.endpoint} failed ({type(error).__name__})"
         )
 
-    def redact(self, text: str) -> str:
-        """The text without the key and without anything that looks like one, on one line."""
-        if self.key:
-            text = text.replace(self.key, "[key]")
-        text = " ".join(_LOOKS_LIKE_A_KEY.sub("[key]", text).split())
+    def no_completion(self, what: str, *, lasts: bool) -> ProviderError:
+        """For a body that is no chat completion: a proxy's page, a cut-off or foreign body.
+
+        Args:
+            what: it is instead.
+            lasts: whether another attempt would bring the same.
+        """
+        kind = ModelNotFoundError if lasts else TemporaryProviderError
+        return kind(f"{self.endpoint} sent {what}, which is no chat completion; {CHECK_ADDRESS}")
+
+    def refused(self, status: int, body: object, headers: Mapping[str, str]) -> ProviderError:
+        """For a call that the provider did not answer.
+
+        Args:
+            status: HTTP status.
+            body: the body, as JSON data or text.
+            headers: of the reply.
+        """
+        said = _what_is_said(body)[:_LONGEST_READ]
+        wait = wait_asked_for(headers, said)
+        row = row_of(status, said, wait)
+        moved = f"; it has moved to {headers['location']}" if "location" in headers else ""
+        quote = self.quote(f"{said or 'no reason given'}{moved}")
+        advice = f"; {row.advice}" if row.advice else ""
+        made = row.make(f"{self.model}: status {status} from {self.endpoint}: {quote}{advice}")
+        if isinstance(made, TemporaryProviderError):
+            made.retry_after = wait
+        return made
+
+    def quote(self, text: str) -> str:
+        """A text without secrets, on one line, not too long."""
+        text = " ".join(self.redactor.redact(text[:_LONGEST_READ]).split())
         return text if len(text) <= _LONGEST_QUOTE else text[: _LONGEST_QUOTE - 3] + "..."
 
-    def _of_connection(self, error: openai.APIConnectionError) -> ProviderError:
-        # By name: older versions of the client raise it from another HTTP library.
-        if type(error.__cause__).__name__ == "ConnectError":
+    def _of_connection(self, error: openai.APIConnectionError) -> SkillWrapperError:
+        causes = tuple(_causes(error))
+        for cause in causes:
+            if isinstance(cause, ssl.SSLCertVerificationError):
+                return ConfigurationError(f"{self.endpoint}: {_about_certificate(cause)}")
+            if isinstance(cause, ssl.SSLError):
+                return ConfigurationError(
+                    f"{self.endpoint} does not speak TLS as expected; if it is a server without "
+                    "TLS, write http:// in --base-url"
+                )
+            if isinstance(cause, socket.gaierror):
+                return NobodyAnswersError(
+                    f"nobody answers at {self.endpoint}: there is no such host, or no network; "
+                    "mend --base-url"
+                )
+        # By name: the client raises these from one HTTP library or another.
+        names = {type(cause).__name__ for cause in causes}
+        if "ProxyError" in names:
+            return NobodyAnswersError(
+                f"the proxy on the way to {self.endpoint} refused; mend or unset HTTPS_PROXY, "
+                "HTTP_PROXY and ALL_PROXY"
+            )
+        if names & {"ConnectError", "UnsupportedProtocol"}:
             return NobodyAnswersError(
                 f"nobody answers at {self.endpoint}; start the server, or mend --base-url"
             )
         return TemporaryProviderError(f"the connection to {self.endpoint} broke")
 
-    def _of_status(self, error: openai.APIStatusError) -> ProviderError:
-        status, said = error.status_code, self.redact(_detail(error))
-        quote = f"{self.model}: status {status} from {self.endpoint}: {said}"
-        if status == 429 and _NO_CREDIT.search(said):
-            return ModelUnavailableError(f"{quote}; top up the account, then resume the run")
-        if status in _TEMPORARY or status >= 500:
-            return TemporaryProviderError(quote, _retry_after(error))
-        if status in {401, 403}:
-            return AuthenticationError(
-                f"{quote}; set the environment variable OPENAI_API_KEY to a valid key"
-            )
-        return _of_refused_request(status, said, quote)
+    def lasting(self, error: SkillWrapperError) -> SkillWrapperError:
+        """The same where there never was a server: waiting for one is of no use."""
+        return ModelNotFoundError(str(error)) if isinstance(error, NobodyAnswersError) else error
 
 
-def _of_refused_request(status: int, said: str, quote: str) -> ProviderError:
-    """The same request would be refused again."""
-    if status in {404, 405} or _NO_MODEL.search(said):
-        return ModelNotFoundError(
-            f"{quote}; check the name of the model, and that --base-url is the address of an "
-            "OpenAI-compatible endpoint (most end in /v1)"
-        )
-    if _PICTURES.search(said):
-        return ModelCapabilityError(f"{quote}; choose a model that accepts pictures")
-    if _TOO_LONG.search(said):
-        return ModelCapabilityError(
-            f"{quote}; choose a model with a longer context, or ask for fewer groundings at once"
-        )
-    return ProviderError(f"{quote}; the provider does not accept this request")
+def _causes(error: BaseException) -> Iterator[BaseException]:
+    seen: set[int] = set()
+    present: BaseException | None = error
+    while present is not None and id(present) not in seen:
+        seen.add(id(present))
+        yield present
+        present = present.__cause__ or present.__context__
 
 
-class NobodyAnswersError(TemporaryProviderError):
-    """No connection could be made at all; lasting, unless there was one before."""
+def _about_certificate(error: ssl.SSLCertVerificationError) -> str:
+    trust = "set SSL_CERT_FILE to a file with a certificate that you trust"
+    if error.verify_code in _SELF_SIGNED:
+        return f"its certificate is self-signed; {trust}"
+    if error.verify_code == _EXPIRED:
+        return "its certificate has expired; renew it, or mend the clock of this machine"
+    if error.verify_code == _OTHER_NAME:
+        return "its certificate is for another host; name the host as the certificate does"
+    return f"its certificate cannot be trusted ({error.verify_message}); {trust}"
 
 
-def _detail(error: openai.APIStatusError) -> str:
-    """What the provider says, without the client's wrapping."""
-    body = error.body
-    if isinstance(body, dict):
-        parts = [body.get("message"), body.get("code")]
-        said = ", ".join(str(part) for part in parts if part)
-        if said:
-            return said
-    return error.message or "no reason given"
+def _what_is_said(body: object) -> str:
+    """The words of an error, with its codes and the parameter that it is about."""
+    if isinstance(body, list) and len(body) == 1:
+        body = body[0]
+    if isinstance(body, Mapping):
+        inner = body.get("error")
+        if isinstance(inner, (Mapping, str)) and inner:
+            body = inner
+    if isinstance(body, Mapping):
+        names = ("message", "msg", "detail", "error", "code", "type", "param", "status", "metadata")
+        said = [_plain(body[name]) for name in names if body.get(name)]
+        return ", ".join(dict.fromkeys(said)) or _plain(body)
+    text = body if isinstance(body, str) else ("" if body is None else _plain(body))
+    return "a web page" if text.lstrip()[:9].lower().startswith(_PAGE_STARTS) else text
 
 
-def _retry_after(error: openai.APIStatusError) -> float | None:
-    headers = error.response.headers
-    for name, unit in (("retry-after-ms", 0.001), ("retry-after", 1.0)):
-        try:
-            return max(0.0, float(headers[name]) * unit)
-        except (KeyError, ValueError):
-            continue
-    return None
+def _plain(value: object) -> str:
+    if isinstance(value, str):
+        return value
+    try:
+        return json.dumps(value, ensure_ascii=False, default=str)
+    except (ValueError, RecursionError):
+        return type(value).__name__

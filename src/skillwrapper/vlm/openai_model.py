@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-import os
+import logging
+import threading
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import openai
 
-from skillwrapper.errors import (
-    AuthenticationError,
-    ConfigurationError,
-    ModelNotFoundError,
-    ProviderError,
-    UnusableReplyError,
+from skillwrapper.errors import ConfigurationError, UnusableReplyError
+from skillwrapper.vlm.openai_connection import Endpoint, open_client
+from skillwrapper.vlm.openai_dialect import INSTEAD, Dialect, Feature, NotUnderstoodError
+from skillwrapper.vlm.openai_errors import ErrorTranslator
+from skillwrapper.vlm.openai_replies import (
+    Completion,
+    ErrorInReplyError,
+    NoCompletionError,
+    read_completion,
 )
-from skillwrapper.vlm.openai_errors import ErrorTranslator, NobodyAnswersError
 from skillwrapper.vlm.pictures import PictureEncoder
-from skillwrapper.vlm.prices import Price, list_price
+from skillwrapper.vlm.prices import price_of
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage
 
-KEY_VARIABLE = "OPENAI_API_KEY"
-"""The environment variable that holds the key; the key is never taken from anywhere else."""
-_NO_KEY = "none-needed"
-_OWN_ENDPOINT = "https://api.openai.com/v1"
+_LOG = logging.getLogger(__name__)
+_HOTTEST = 2.0
 
 
 @dataclass(frozen=True)
@@ -34,13 +34,13 @@ class OpenAISettings:
 
     Attributes:
         model: the provider's name of the model.
-        base_url: address of the endpoint; None for OpenAI's own.
+        base_url: address of the endpoint; None for that of the environment, or OpenAI's own.
         temperature: 0 to 2; None for the model's default, some models accept no other.
         reasoning_effort: e.g. ``"low"``; None for the model's default.
-        max_output_tokens: None for the model's default.
+        max_output_tokens: tokens of a reply, reasoning included; None for the model's default.
         image_size: pictures with a longer side are scaled down to this many pixels; None for
             never.
-        timeout: seconds that one attempt may take.
+        timeout: seconds that one attempt may take, from the first byte sent to the last received.
 
     Raises:
         ConfigurationError: if a number makes no sense.
@@ -57,46 +57,47 @@ class OpenAISettings:
     def __post_init__(self) -> None:
         if not self.model:
             raise ConfigurationError("expected the name of a model after 'openai:', got none")
-        if self.base_url is not None and not self.base_url.startswith(("http://", "https://")):
-            raise ConfigurationError(
-                f"'base-url': expected an address like http://localhost:8000/v1, "
-                f"got '{self.base_url}'"
-            )
         for name in ("image_size", "max_output_tokens", "timeout"):
             value = getattr(self, name)
             if value is not None and value <= 0:
                 raise ConfigurationError(f"'{name}': expected more than 0, got {value}")
+        if self.temperature is not None and not 0 <= self.temperature <= _HOTTEST:
+            raise ConfigurationError(f"'temperature': expected 0 to 2, got {self.temperature}")
 
     @property
-    def endpoint(self) -> str:
-        """The address that is asked."""
-        return self.base_url or os.environ.get("OPENAI_BASE_URL") or _OWN_ENDPOINT
+    def options(self) -> dict[Feature, object | None]:
+        """What is sent along where the endpoint knows it."""
+        return {
+            Feature.TEMPERATURE: self.temperature,
+            Feature.REASONING_EFFORT: self.reasoning_effort,
+            Feature.MAX_COMPLETION_TOKENS: self.max_output_tokens,
+        }
 
 
 class OpenAIModel:
     """Asks an endpoint once for each request; see ``RetryingModel`` for more attempts.
 
+    What an endpoint does not know of the protocol is found out in the first calls, told once in
+    the log, and avoided from then on.
+
     Args:
         settings: which model, where, and how.
-        price: what it costs; the list price by default, which may be unknown.
 
     Raises:
         AuthenticationError: if there is no key and the endpoint needs one.
+        ConfigurationError: if the address, the key, a proxy or a certificate cannot be used.
     """
 
-    def __init__(self, settings: OpenAISettings, price: Price | None = None) -> None:
+    def __init__(self, settings: OpenAISettings) -> None:
         self._settings = settings
-        key = _find_key(settings)
-        self._errors = ErrorTranslator(self.name, settings.endpoint, key)
-        self._price = price or list_price(settings.model, settings.base_url)
+        endpoint = Endpoint.find(settings.model, settings.base_url)
+        self._redactor = endpoint.redactor
+        self._errors = ErrorTranslator(self.name, endpoint.url, endpoint.redactor)
+        self._price = price_of(settings.model, endpoint.url)
         self._encoder = PictureEncoder(settings.image_size)
+        self._dialect, self._lock = Dialect(), threading.Lock()
         self._was_reached = False
-        self._client = openai.OpenAI(
-            api_key=key,
-            base_url=settings.endpoint,
-            timeout=settings.timeout,
-            max_retries=0,
-        )
+        self._client = open_client(endpoint, settings.timeout)
 
     @property
     def name(self) -> str:
@@ -115,85 +116,78 @@ class OpenAIModel:
         return {name: value for name, value in settings.items() if value is not None}
 
     def complete(self, request: ModelRequest) -> ModelReply:
-        """Ask once.
+        """Ask once; again at once where the endpoint does not know a part of the protocol.
 
         Raises:
             TemporaryProviderError: if another attempt may work.
             ProviderError: if it would fail in the same way.
+            ConfigurationError: if the way to the endpoint cannot be used.
         """
-        began = time.perf_counter()
-        try:
-            completion = self._client.chat.completions.create(**self._arguments(request))
-        except (openai.OpenAIError, ValueError) as error:
-            # Without the chain: the client's exception may quote headers or the key.
-            raise self._lasting_or_not(self._errors.translate(error)) from None
-        self._was_reached = True
-        return self._read(completion, time.perf_counter() - began)
+        while True:
+            dialect = self._dialect
+            try:
+                return self._ask(request, dialect)
+            except NotUnderstoodError as error:
+                if error.feature in dialect.missing or not self._is_sent(error.feature, request):
+                    raise
+                self._avoid(error.feature)
 
     def close(self) -> None:
         """Close the connections."""
         self._client.close()
 
-    def _arguments(self, request: ModelRequest) -> dict[str, Any]:
-        content: list[dict[str, Any]] = [{"type": "text", "text": request.prompt}]
-        for picture in request.pictures:
-            url = self._encoder.data_url(picture)
-            content.append({"type": "image_url", "image_url": {"url": url}})
-        messages: list[dict[str, Any]] = [{"role": "user", "content": content}]
-        if request.system:
-            messages.insert(0, {"role": "system", "content": request.system})
-        optional = {
-            "temperature": self._settings.temperature,
-            "reasoning_effort": self._settings.reasoning_effort,
-            "max_completion_tokens": self._settings.max_output_tokens,
-        }
-        chosen = {name: value for name, value in optional.items() if value is not None}
-        return {"model": self._settings.model, "messages": messages, **chosen}
-
-    def _lasting_or_not(self, error: ProviderError) -> ProviderError:
-        """Where there never was a server, waiting for one is of no use."""
-        if isinstance(error, NobodyAnswersError) and not self._was_reached:
-            return ModelNotFoundError(str(error))
-        return error
-
-    def _read(self, completion: Any, seconds: float) -> ModelReply:
-        """The text of a completion; the client does not check its shape."""
-        usage = self._usage(completion, seconds)
+    def _ask(self, request: ModelRequest, dialect: Dialect) -> ModelReply:
+        messages = dialect.messages(request, self._encoder.data_url)
+        options = dialect.options(self._settings.options)
+        began = time.perf_counter()
         try:
-            choice = completion.choices[0]
-            text, refusal = choice.message.content, getattr(choice.message, "refusal", None)
-            reason = choice.finish_reason
-        except (AttributeError, IndexError, TypeError):
-            if isinstance(getattr(completion, "choices", None), list):
-                raise UnusableReplyError(
-                    f"{self.name} sent no choice", "empty", usage=usage
-                ) from None
-            raise self._errors.translate(TypeError("no completion")) from None
-        if refusal or reason == "content_filter":
-            said = self._errors.redact(str(refusal or text or ""))
-            raise UnusableReplyError(f"{self.name} refused: {said}", "refused", said, usage)
-        if not isinstance(text, str) or not text.strip():
-            raise UnusableReplyError(
-                f"{self.name} replied nothing (finish reason: {reason})", "empty", usage=usage
+            raw = self._client.chat.completions.with_raw_response.create(
+                model=self._settings.model,
+                messages=messages,  # type: ignore[arg-type]
+                **options,
             )
-        return ModelReply(text, usage)
+            body, headers = raw.content, raw.headers
+        except (openai.OpenAIError, ValueError) as error:
+            translated = self._errors.translate(error)
+            if not self._was_reached:
+                translated = self._errors.lasting(translated)
+            # Without the chain: the client's exception may quote headers or the key.
+            raise translated from None
+        seconds = time.perf_counter() - began
+        try:
+            completion = read_completion(body)
+        except NoCompletionError as error:
+            lasts = not (error.is_broken or self._was_reached)
+            raise self._errors.no_completion(str(error), lasts=lasts) from None
+        except ErrorInReplyError as error:
+            raise self._errors.refused(error.status, error.body, headers) from None
+        self._was_reached = True
+        return self._reply(completion, seconds)
 
-    def _usage(self, completion: Any, seconds: float) -> Usage:
-        told = getattr(completion, "usage", None)
-        tokens = [getattr(told, name, None) for name in ("prompt_tokens", "completion_tokens")]
-        counted = [value if isinstance(value, int) else None for value in tokens]
-        cost = self._price.cost(*counted) if self._price else None
-        return Usage(counted[0], counted[1], cost, seconds)
+    def _reply(self, completion: Completion, seconds: float) -> ModelReply:
+        tokens = (completion.input_tokens, completion.output_tokens)
+        cost = self._price(*tokens) if self._price else None
+        usage = Usage(*tokens, cost, seconds)
+        if completion.refusal is not None:
+            said = self._errors.quote(completion.refusal)
+            raise UnusableReplyError(f"{self.name} refused: {said}", "refused", said, usage)
+        if not completion.text.strip() and not completion.cut_off:
+            raise UnusableReplyError(
+                f"{self.name} replied nothing (finish reason: {completion.reason})",
+                "empty",
+                usage=usage,
+            )
+        text = self._redactor.redact(completion.text)
+        return ModelReply(text, usage, cut_off=completion.cut_off)
 
+    def _is_sent(self, feature: Feature, request: ModelRequest) -> bool:
+        """Whether a request makes use of a feature: only then can doing without it help."""
+        if feature is Feature.SYSTEM_ROLE:
+            return bool(request.system)
+        return self._settings.options[feature] is not None
 
-def _find_key(settings: OpenAISettings) -> str:
-    """The key from the environment; endpoints of one's own usually need none."""
-    key = os.environ.get(KEY_VARIABLE, "").strip()
-    if key:
-        return key
-    if settings.endpoint == _OWN_ENDPOINT:
-        raise AuthenticationError(
-            f"no key for openai:{settings.model}; set the environment variable {KEY_VARIABLE}, or "
-            "name the address of an endpoint that needs none with --base-url"
-        )
-    return _NO_KEY
+    def _avoid(self, feature: Feature) -> None:
+        with self._lock:
+            if feature not in self._dialect.missing:
+                self._dialect = self._dialect.without(feature)
+                _LOG.warning("%s does not know %s: %s", self.name, feature, INSTEAD[feature])

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from skillwrapper.world.observation import Observation
-from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -46,11 +45,11 @@ class Episode:
     """A sequence of transitions after one reset of the environment.
 
     Attributes:
-        scene: the objects that were present.
+        scene: names of the objects that were present, sorted.
         seed: the seed given to ``reset``.
         transitions: in the order of execution; each starts where the one before ended.
     """
 
-    scene: Scene
+    scene: tuple[str, ...]
     seed: int
     transitions: tuple[Transition, ...]

@@ -39,9 +39,27 @@ def read_request(body: bytes) -> tuple[str, ModelRequest]:
         ) from error
 
 
-def completion(model: str, request: ModelRequest, reply: ModelReply) -> dict[str, Any]:
-    """The body of an answer."""
-    return _body(model, {"role": "assistant", "content": reply.text, "refusal": None}, reply)
+def completion(model: str, reply: ModelReply, reason: str = "stop") -> dict[str, Any]:
+    """The body of an answer, with its finish reason."""
+    message = {"role": "assistant", "content": reply.text, "refusal": None}
+    return _body(model, message, reply, reason)
+
+
+def in_parts(model: str, reply: ModelReply) -> dict[str, Any]:
+    """The body of an answer in parts, of which the first is no answer."""
+    half = len(reply.text) // 2
+    parts = [
+        {"type": "thinking", "thinking": "Let me look."},
+        {"type": "text", "text": reply.text[:half]},
+        {"type": "text", "text": reply.text[half:]},
+    ]
+    return _body(model, {"role": "assistant", "content": parts}, reply)
+
+
+def in_reasoning(model: str, reply: ModelReply) -> dict[str, Any]:
+    """The body of an answer in the field that is meant for reasoning."""
+    message = {"role": "assistant", "content": "", "reasoning_content": reply.text}
+    return _body(model, message, reply)
 
 
 def refusal(model: str, reply: ModelReply) -> dict[str, Any]:
@@ -60,7 +78,9 @@ def error_body(message: str, kind: str, code: str | None = None) -> dict[str, An
     return {"error": {"message": message, "type": kind, "param": None, "code": code}}
 
 
-def _body(model: str, message: dict[str, Any], reply: ModelReply) -> dict[str, Any]:
+def _body(
+    model: str, message: dict[str, Any], reply: ModelReply, reason: str = "stop"
+) -> dict[str, Any]:
     tokens_in, tokens_out = reply.usage.input_tokens or 0, reply.usage.output_tokens or 0
     digest = hashlib.sha256(reply.text.encode("utf-8", "surrogatepass")).hexdigest()
     return {
@@ -68,7 +88,7 @@ def _body(model: str, message: dict[str, Any], reply: ModelReply) -> dict[str, A
         "object": "chat.completion",
         "created": 0,
         "model": model,
-        "choices": [{"index": 0, "message": message, "finish_reason": "stop", "logprobs": None}],
+        "choices": [{"index": 0, "message": message, "finish_reason": reason, "logprobs": None}],
         "usage": {
             "prompt_tokens": tokens_in,
             "completion_tokens": tokens_out,

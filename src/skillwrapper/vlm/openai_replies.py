@@ -1,0 +1,160 @@
+"""Reading the body of a reply: every form in which servers wrap what a model said."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+_CUT_OFF = frozenset({"length", "max_tokens", "max_output_tokens", "model_length"})
+_REFUSED = frozenset(
+    {"content_filter", "content-filter", "safety", "refusal", "prohibited_content", "blocklist",
+     "recitation", "spii", "image_safety", "guardrail_intervened", "sensitive"}
+)  # fmt: skip
+_REASONING_FIELDS = ("reasoning_content", "reasoning", "thinking", "reasoning_text")
+_REASONING_PARTS = frozenset({"thinking", "reasoning", "redacted_thinking"})
+_TEXT_KEYS = ("text", "content", "value", "output_text")
+_DEEPEST = 4
+
+
+class NoCompletionError(Exception):
+    """The body is no chat completion.
+
+    Args:
+        what: it is instead.
+        is_broken: whether it may have been one; else something else answers at this address.
+    """
+
+    def __init__(self, what: str, *, is_broken: bool) -> None:
+        super().__init__(what)
+        self.is_broken = is_broken
+
+
+class ErrorInReplyError(Exception):
+    """The body reports an error although the status says that all went well.
+
+    Args:
+        status: the status that the provider meant, or 500 if it does not tell.
+        body: the error as it came.
+    """
+
+    def __init__(self, status: int, body: object) -> None:
+        super().__init__("an error in a reply")
+        self.status, self.body = status, body
+
+
+@dataclass(frozen=True)
+class Completion:
+    """What a model said.
+
+    Attributes:
+        text: the answer; may be empty.
+        refusal: what it said in refusing; None if it did not refuse.
+        cut_off: whether the answer ended because a limit on its length was reached.
+        reason: the finish reason, for messages.
+        input_tokens: None if not told.
+        output_tokens: None if not told.
+    """
+
+    text: str
+    refusal: str | None
+    cut_off: bool
+    reason: str
+    input_tokens: int | None
+    output_tokens: int | None
+
+
+def read_completion(body: bytes) -> Completion:
+    """The completion in a body.
+
+    Raises:
+        NoCompletionError: if it holds none.
+        ErrorInReplyError: if it holds an error.
+    """
+    data = _json_object(body)
+    choices = data.get("choices")
+    if data.get("error") and not choices:
+        raise _reported(data["error"])
+    if not isinstance(choices, list):
+        raise NoCompletionError("JSON without choices", is_broken=False)
+    usage = data.get("usage")
+    counted = usage if isinstance(usage, dict) else {}
+    tokens = (_count(counted.get("prompt_tokens")), _count(counted.get("completion_tokens")))
+    if not choices:
+        return Completion("", None, False, "no choice", *tokens)
+    choice = choices[0]
+    if not isinstance(choice, dict):
+        raise NoCompletionError("a choice that is no object", is_broken=True)
+    if choice.get("error"):
+        raise _reported(choice["error"])
+    return _of_choice(choice, *tokens)
+
+
+def _of_choice(choice: dict[str, Any], tokens_in: int | None, tokens_out: int | None) -> Completion:
+    message = choice.get("message")
+    if message is None and isinstance(choice.get("text"), str):
+        message = {"content": choice["text"]}
+    if not isinstance(message, dict):
+        raise NoCompletionError("a choice without a message", is_broken=True)
+    reason = str(choice.get("finish_reason") or choice.get("native_finish_reason") or "none")
+    text, refusal = _text(message.get("content")), _text(message.get("refusal"))
+    refusal = refusal or _refusal_part(message.get("content"))
+    cut_off = reason.lower() in _CUT_OFF
+    if not text.strip() and not refusal and not cut_off:
+        text = next(filter(str.strip, (_text(message.get(f)) for f in _REASONING_FIELDS)), "")
+    refused = bool(refusal) or reason.lower() in _REFUSED
+    return Completion(
+        text, (refusal or text) if refused else None, cut_off, reason, tokens_in, tokens_out
+    )
+
+
+def _json_object(body: bytes) -> dict[str, Any]:
+    try:
+        data = json.loads(body)
+    except (ValueError, RecursionError):
+        start = body[:200].lstrip().lower()
+        if start.startswith((b"<!doctype", b"<html", b"<?xml", b"<head", b"<body")):
+            raise NoCompletionError("a web page", is_broken=False) from None
+        raise NoCompletionError("no JSON" if body.strip() else "nothing", is_broken=True) from None
+    if isinstance(data, list) and len(data) == 1 and isinstance(data[0], dict):
+        data = data[0]  # Google wraps errors in a list
+    if not isinstance(data, dict):
+        raise NoCompletionError("JSON of another shape", is_broken=False)
+    return data
+
+
+def _reported(error: object) -> ErrorInReplyError:
+    status = 500
+    if isinstance(error, dict):
+        for name in ("code", "status", "status_code"):
+            value = error.get(name)
+            number = int(value) if isinstance(value, str) and value.isdecimal() else value
+            if isinstance(number, int) and not isinstance(number, bool) and 400 <= number < 600:
+                status = number
+                break
+    return ErrorInReplyError(status, error)
+
+
+def _text(content: object, depth: int = 0) -> str:
+    """The text in a message's content: a string, or parts of which some are no answer."""
+    if isinstance(content, str):
+        return content
+    if depth > _DEEPEST:
+        return ""
+    if isinstance(content, list):
+        return "".join(_text(part, depth + 1) for part in content)
+    if isinstance(content, dict) and content.get("type") not in _REASONING_PARTS | {"refusal"}:
+        return next(filter(None, (_text(content.get(k), depth + 1) for k in _TEXT_KEYS)), "")
+    return ""
+
+
+def _refusal_part(content: object) -> str:
+    if not isinstance(content, list):
+        return ""
+    parts = (p for p in content if isinstance(p, dict) and p.get("type") == "refusal")
+    return "".join(str(part.get("refusal") or "") for part in parts)
+
+
+def _count(value: object) -> int | None:
+    is_count = isinstance(value, int) and not isinstance(value, bool) and value >= 0
+    return value if is_count else None  # type: ignore[return-value]
