@@ -14,7 +14,7 @@ from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.learning.fitting import fit_skill
-from skillwrapper.learning.operators import learn_operators
+from skillwrapper.learning.operators import cluster_operators
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.tables import SkillTable
 
@@ -98,7 +98,7 @@ def main() -> None:
         data = kitchen.draw(size, seed=0)
         started = time.perf_counter()
         for skill in kitchen.domain.skills:
-            learn_operators(kitchen.domain, skill, data[skill.name], predicates)
+            cluster_operators(kitchen.domain, skill, data[skill.name], predicates)
         seconds = time.perf_counter() - started
         fits = [
             fit_skill(kitchen.domain, s, data[s.name], predicates) for s in kitchen.domain.skills

@@ -6,6 +6,7 @@ SkillWrapperError
 │   ├── UnknownNameError      a name that does not exist; says which come close
 │   ├── GoalError             a goal expression
 │   ├── PictureError          a file that is not a readable picture
+│   ├── FileError             a file that is damaged, or cannot be read or written
 │   ├── RunFolderError        a run folder that cannot be used
 │   ├── SymbolError           a predicate, atom or operator that is not well formed
 │   └── MissingDependencyError  something must be installed
@@ -74,6 +75,10 @@ class GoalError(UserError):
 
 class PictureError(UserError):
     """A file is not a picture, or not one of the expected size."""
+
+
+class FileError(UserError):
+    """A file is damaged, or cannot be read or written."""
 
 
 class RunFolderError(UserError):

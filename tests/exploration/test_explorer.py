@@ -46,9 +46,8 @@ def explorer(proposer: Proposer, seed: int = 0, **settings: object) -> Explorer:
 
 
 def episode(*steps: tuple[SkillInstance, bool]) -> Episode:
-    return Episode(
-        ("left", "right"), 0, tuple(Transition(SEEN, i, success, SEEN) for i, success in steps)
-    )
+    transitions = tuple(Transition(SEEN, i, success, SEEN) for i, success in steps)
+    return Episode(GARDEN.scene(), 0, transitions)
 
 
 def test_the_best_by_both_scores_is_chosen() -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from notebook import Notebook, make_domain
 
-from skillwrapper.invention.inventor import Decision, Inventor, Verdict
+from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -71,7 +71,7 @@ class Study:
         self.words = Vocabulary(notebook.domain.types, (*active, *dormant))
         for predicate in dormant:
             self.words.set_dormant(predicate)
-        self.decisions: list[Decision] = []
+        self.decisions: list[CandidateDecision] = []
         self.inventor = Inventor(
             notebook.fitter(),
             self.words,

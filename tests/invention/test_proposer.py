@@ -63,7 +63,7 @@ def ask(
 ) -> tuple[InventionQuestion, tuple[Transition, ...]]:
     dataset = Dataset(KITCHEN)
     transitions = (transition(0, True), transition(1, False))
-    dataset.add(Episode(("r", "soup", "stove"), 0, transitions))
+    dataset.add(Episode(KITCHEN.scene(), 0, transitions))
     second = None if kind is InconsistencyKind.UNEXPLAINED else 1
     one = Inconsistency(kind, "Swap", 0, second, 0, ("Swap", kind, (), ()), unexplained)
     adviser = Adviser()

@@ -38,7 +38,31 @@ def test_known_ones_are_not() -> None:
     words.set_dormant(asleep)
     words.reject(CLEAN_CUP)
     assert words.fresh([HELD, CLEAN_CUP, asleep]) == ()
-    assert words.fresh([Predicate("held", ("item",), "said otherwise")]) == ()
+    assert words.fresh([Predicate("clean", ("cup",), "The thing is  clean.")]) == ()
+
+
+def test_another_meaning_is_another_predicate() -> None:
+    """Else a rejected or dormant one lends its labels to whatever comes under its name."""
+    ajar = Predicate("open", ("cup",), "a gap can be seen")
+    wide = Predicate("open", ("cup",), "fully open")
+    words = vocabulary()
+    words.reject(wide)
+    assert words.fresh([wide, ajar]) == (ajar,)
+    words.accept(wide)
+    words.set_dormant(wide)
+    (renamed,) = words.fresh([ajar])
+    assert renamed == Predicate("open_2", ("cup",), "a gap can be seen")
+    words.accept(renamed)
+    assert (words.active, words.dormant) == ((renamed,), (wide,))
+    assert words.fresh([ajar, wide]) == ()
+
+
+def test_other_words_for_the_types_are_no_other_meaning() -> None:
+    known = Predicate("full", ("cup",), "The cup is full.")
+    (wider,) = vocabulary(known).fresh([Predicate("full", ("plate",), "the plate is full")])
+    assert wider == Predicate("full", ("item",), "The cup is full.")
+    (renamed,) = vocabulary(known).fresh([Predicate("full", ("plate",), "No room is left on it.")])
+    assert renamed == Predicate("full_plate", ("plate",), "No room is left on it.")
 
 
 def test_one_of_several_with_the_same_name() -> None:
@@ -49,9 +73,8 @@ def test_one_of_several_with_the_same_name() -> None:
 def test_another_type_widens_the_known_one() -> None:
     """D3: to the most specific type that covers both; the meaning is the known one's."""
     words = vocabulary(CLEAN_CUP, HELD)
-    (wider,) = words.fresh([Predicate("clean", ("plate",), "something else")])
-    assert wider == Predicate("clean", ("item",))
-    assert wider.semantics == CLEAN_CUP.semantics
+    (wider,) = words.fresh([Predicate("clean", ("plate",), "The thing is clean.")])
+    assert wider == Predicate("clean", ("item",), CLEAN_CUP.semantics)
     words.accept(wider)
     assert words.active == (HELD, wider)
     (widest,) = words.fresh([Predicate("clean", ("table",))])
@@ -59,7 +82,7 @@ def test_another_type_widens_the_known_one() -> None:
 
 
 def test_a_type_that_is_covered_already_is_nothing_new() -> None:
-    words = vocabulary(Predicate("clean", ("item",)))
+    words = vocabulary(Predicate("clean", ("item",), CLEAN_CUP.semantics))
     assert words.fresh([CLEAN_CUP]) == ()
 
 

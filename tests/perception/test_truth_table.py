@@ -76,6 +76,34 @@ def test_a_question_a_picture_about_all_that_is_missing_in_one_wave() -> None:
     assert truth.asked == 4
 
 
+class LidReader:
+    """Answers by the meaning: the lid is ajar, so a gap can be seen and it is not fully open."""
+
+    def evaluate(self, questions: Sequence[EvaluationQuestion]) -> list[EvaluationAnswer]:
+        return [
+            EvaluationAnswer(
+                {
+                    atom: "gap" in predicate.semantics
+                    for predicate in question.predicates
+                    for atom in predicate.groundings(question.objects)
+                }
+            )
+            for question in questions
+        ]
+
+
+@pytest.mark.parametrize("together", [True, False])
+def test_one_name_with_two_meanings_has_two_labels(*, together: bool) -> None:
+    """Labels read for a rejected meaning once counted for whatever came under its name."""
+    wide = Predicate("open", ("cup",), "The lid is fully open.")
+    ajar = Predicate("open", ("cup",), "A gap can be seen.")
+    truth = TruthTable(DOMAIN, LidReader())
+    wanted = [(AtomSpace((p,), CUPS), [seen("ajar")]) for p in (wide, ajar)]
+    if together:
+        truth.prefetch(wanted)
+    assert [truth.labels(*one).tolist() for one in wanted] == [[[0, 0, 0]], [[1, 1, 1]]]
+
+
 def test_nothing_is_asked_twice() -> None:
     truth, reader = table()
     truth.labels(AtomSpace((FULL,), CUPS), [seen("a"), seen("b")])

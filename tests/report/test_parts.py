@@ -8,6 +8,7 @@ from skillwrapper.report.labels import RecordedLabels
 from skillwrapper.report.strips import Cell, lay_out
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation, Picture
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -61,7 +62,7 @@ def _did(before: str, skill: str, success: bool, after: str) -> Transition:
 
 def test_failures_without_a_change_stand_over_the_next_picture() -> None:
     episode = Episode(
-        (),
+        Scene("empty", ()),
         0,
         (
             _did("a", "Cut", False, "a"),
@@ -93,7 +94,7 @@ def test_failures_without_a_change_stand_over_the_next_picture() -> None:
 def test_long_episodes_are_broken_into_strips() -> None:
     steps = tuple(_did(str(n), "Walk", True, str(n + 1)) for n in range(9))
     rows = {_see(str(n)).key: {"odd()": n % 2 == 1} for n in range(10)}
-    found = lay_out(1, Episode((), 0, steps), RecordedLabels(rows))
+    found = lay_out(1, Episode(Scene("empty", ()), 0, steps), RecordedLabels(rows))
     assert [len(strip.moments) for strip in found.strips] == [7, 3]
     # The first column of the second strip still knows what came before it.
     assert found.strips[1].rows[0][1][0] == Cell(True, True)

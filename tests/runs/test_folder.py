@@ -9,7 +9,7 @@ import pytest
 from lamps import DOMAIN_YAML, domain_file, seen
 
 from skillwrapper.errors import ConfigurationError, RunFolderError
-from skillwrapper.files.writing import append_line, read_lines, write_atomically, write_json
+from skillwrapper.files.writing import write_json
 from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.world import Observation, Picture
@@ -154,59 +154,3 @@ def test_a_changed_picture_is_noticed(folder: RunFolder) -> None:
     path.unlink()
     with pytest.raises(RunFolderError, match="missing"):
         folder.load_observation(record)
-
-
-def test_writing_is_all_or_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "deep" / "file"
-    write_atomically(path, "old")
-
-    def crash(self: Path, data: bytes) -> None:
-        with self.open("wb") as file:
-            file.write(data[:2])
-        raise CrashError
-
-    monkeypatch.setattr(Path, "write_bytes", crash)
-    with pytest.raises(CrashError):
-        write_atomically(path, "new one")
-    monkeypatch.undo()
-    assert path.read_text() == "old"
-    write_atomically(path, "new one")
-    assert contents(path.parent) == {"file": b"new one"}
-
-
-def test_json_is_written_in_one_way(tmp_path: Path) -> None:
-    for number, content in enumerate(({"b": 1, "a": [2]}, {"a": [2], "b": 1})):
-        write_json(tmp_path / str(number), content)
-    assert (tmp_path / "0").read_bytes() == (tmp_path / "1").read_bytes()
-
-
-def test_lines(tmp_path: Path) -> None:
-    path = tmp_path / "lines.jsonl"
-    assert list(read_lines(path)) == []
-    entries = [{"text": "line\nbreak\u2028"}, {"number": 1}]
-    for entry in entries:
-        append_line(path, entry)
-    assert list(read_lines(path)) == entries
-
-
-@pytest.mark.parametrize("cut", ['{"a": 1}\n{"b"', '{"a": 1}\n{"b": 2}', '{"a": 1}\n'])
-def test_a_last_line_that_was_cut_is_dropped(tmp_path: Path, cut: str) -> None:
-    """Without a line break it was not written to its end, even if it looks whole."""
-    path = tmp_path / "lines.jsonl"
-    path.write_text(cut)
-    assert list(read_lines(path)) == [{"a": 1}]
-    append_line(path, {"c": 3})
-    assert list(read_lines(path)) == [{"a": 1}, {"c": 3}]
-
-
-def test_nothing_but_a_cut_line(tmp_path: Path) -> None:
-    path = tmp_path / "lines.jsonl"
-    path.write_text('{"a"')
-    assert list(read_lines(path)) == []
-
-
-def test_another_damaged_line_is_named(tmp_path: Path) -> None:
-    path = tmp_path / "lines.jsonl"
-    path.write_text('{"a": 1}\n{"b"\n{"c": 3}\n')
-    with pytest.raises(RunFolderError, match=r"lines.jsonl:2: expected a line of JSON"):
-        list(read_lines(path))

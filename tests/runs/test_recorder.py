@@ -12,7 +12,7 @@ from skillwrapper.errors import RobotError, RunFolderError
 from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.recorder import EpisodeRecorder, read_episode
-from skillwrapper.world import Domain, Episode, Observation, SkillInstance, Transition
+from skillwrapper.world import Domain, Episode, Observation, Scene, SkillInstance, Transition
 
 LIGHT_LEFT = SkillInstance("Light", ("hand", "left"))
 LIGHT_RIGHT = SkillInstance("Light", ("hand", "right"))
@@ -42,15 +42,15 @@ class Run:
     ) -> None:
         self.recorder = EpisodeRecorder(folder, environment)
         self.sequence = sequence
-        self.starts: list[tuple[tuple[str, ...], Observation]] = []
+        self.starts: list[tuple[Scene, Observation]] = []
         self.told: list[Transition] = []
 
-    def choose(self, scene: tuple[str, ...], start: Observation) -> tuple[SkillInstance, ...]:
+    def choose(self, scene: Scene, start: Observation) -> tuple[SkillInstance, ...]:
         self.starts.append((scene, start))
         return self.sequence
 
     def __call__(self) -> Episode:
-        return self.recorder.run(1, 7, self.choose, self.told.append)
+        return self.recorder.run(1, 7, None, self.choose, self.told.append)
 
 
 def crash_after(folder: RunFolder, domain: Domain, skills: int) -> None:
@@ -65,7 +65,7 @@ def test_an_episode_is_executed_and_recorded(folder: RunFolder, domain: Domain) 
     assert [t.success for t in episode.transitions] == [True, False, True, True]
     assert episode.transitions[0].before == seen(seed=7)
     assert episode.transitions[0].after == episode.transitions[1].before == seen("left", seed=7)
-    assert (episode.scene, episode.seed) == (("hand", "left", "right"), 7)
+    assert (episode.scene, episode.seed) == (domain.scene(), 7)
     assert run.told == list(episode.transitions)
     assert read_episode(folder, 1) == episode
 

@@ -231,7 +231,7 @@ def explore(length: int, seed: int) -> Episode:
         success, following = ENVIRONMENT.successor(state, instance)
         transitions.append(Transition(observe(state), instance, success, observe(following)))
         state = following
-    return Episode(tuple(o.name for o in DOMAIN.objects), 0, tuple(transitions))
+    return Episode(DOMAIN.scene(), 0, tuple(transitions))
 
 
 def _next(state: BurgerState, done: Sequence[Transition], chance: random.Random) -> SkillInstance:

@@ -15,6 +15,7 @@ from skillwrapper.world import (
     Outcome,
     Parameter,
     Picture,
+    Scene,
     Skill,
     SkillInstance,
     TypeHierarchy,
@@ -47,10 +48,11 @@ class LampEnvironment:
         return LAMP_DOMAIN
 
     @property
-    def scene(self) -> tuple[str, ...]:
-        return ("hand", "lamp")
+    def scene(self) -> Scene:
+        return self.domain.scene()
 
-    def reset(self, *, seed: int) -> Observation:
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        self.domain.scene(scene)
         return self.set_state(False, seed=seed)
 
     def execute(self, instance: SkillInstance) -> Outcome:

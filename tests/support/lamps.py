@@ -21,6 +21,7 @@ from skillwrapper.world import (
     Observation,
     Outcome,
     Picture,
+    Scene,
     SkillInstance,
     ground_skills,
     load_domain,
@@ -68,10 +69,11 @@ class LampEnvironment:
         return self._domain
 
     @property
-    def scene(self) -> tuple[str, ...]:
-        return tuple(o.name for o in self._domain.objects)
+    def scene(self) -> Scene:
+        return self.domain.scene()
 
-    def reset(self, *, seed: int) -> Observation:
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        self.domain.scene(scene)
         self._seed, self._lit = seed, frozenset()
         self.resets.append(seed)
         return self.observe()

@@ -24,6 +24,7 @@ from skillwrapper.world import (
     Observation,
     Parameter,
     Picture,
+    Scene,
     Skill,
     SkillInstance,
     Transition,
@@ -97,12 +98,13 @@ class Notebook:
 
     def episode(self, *steps: tuple[str, str, bool, str], scene: Iterable[str] = ()) -> None:
         """Add an episode of (before, skill instance, success, after)."""
-        names = tuple(scene) or tuple(o.name for o in self.domain.objects)
+        names = tuple(scene)
+        present = Scene.of(" ".join(names), names, self.domain.objects)
         transitions = tuple(
             Transition(picture(before), instance(skill), success, picture(after))
             for before, skill, success, after in steps
         )
-        self.dataset.add(Episode(names, 0, transitions))
+        self.dataset.add(Episode(present if names else self.domain.scene(), 0, transitions))
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         for space, observations in wanted:

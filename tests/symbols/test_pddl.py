@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-import tempfile
-import warnings
-from pathlib import Path
-
-import kstar_planner
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from model_strategies import DOMAIN, models
 from pddl.formatter import domain_to_string
 from pddl.parser.domain import DomainParser
 from pddl.parser.problem import ProblemParser
+from pddl_readers import read_with_translator, read_with_unified_planning
 
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
@@ -113,53 +106,16 @@ def test_problem_parses(model: AbstractModel, data: st.DataObject) -> None:
 @settings(max_examples=15, deadline=None)
 @given(models())
 def test_unified_planning_reads_it(model: AbstractModel) -> None:
-    read_with_unified_planning(print_domain(model), print_problem(model, DOMAIN.objects, (), ()))
+    read_with_unified_planning((print_domain(model), print_problem(model, DOMAIN.objects, (), ())))
 
 
 def test_unified_planning_reads_burger() -> None:
-    problem = read_with_unified_planning(print_domain(expert_model()), burger_problem())
+    problem = read_with_unified_planning((print_domain(expert_model()), burger_problem()))
     assert len(problem.actions) == 7
-
-
-def read_with_unified_planning(domain: str, problem: str):
-    from unified_planning.io import PDDLReader  # noqa: PLC0415
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        return PDDLReader().parse_problem_string(domain, problem)
-
-
-TRANSLATOR = Path(kstar_planner.__file__).parent / "builds/release/bin/translate"
-READ_ALL = f"""
-import sys
-folder, sys.argv = sys.argv[1], ["translate", "domain", "problem"]
-sys.path.insert(0, {str(TRANSLATOR)!r})
-from pathlib import Path
-import pddl_parser
-for domain in sorted(Path(folder).glob("*.domain")):
-    pddl_parser.open(str(domain), str(domain.with_suffix(".problem")))
-"""
 
 
 @settings(max_examples=1, deadline=None)
 @given(st.lists(models(), min_size=10, max_size=20))
 def test_fast_downwards_translator_reads_it(drawn: list[AbstractModel]) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        texts = [(print_domain(m), print_problem(m, DOMAIN.objects, (), ())) for m in drawn]
-        texts.append((print_domain(expert_model()), burger_problem()))
-        for number, (domain, problem) in enumerate(texts):
-            Path(folder, f"{number}.domain").write_text(domain, encoding="utf-8")
-            Path(folder, f"{number}.problem").write_text(problem, encoding="utf-8")
-        done = subprocess.run(
-            [sys.executable, "-c", READ_ALL, folder], capture_output=True, text=True, check=False
-        )
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-@pytest.mark.parametrize("learned", ["On", "on", "and", "object", "Pick_1"])
-def test_names_of_any_kind_survive(learned: str) -> None:
-    vocabulary = (Predicate("on", ("item", "item")), Predicate("ON", ()))
-    if learned not in {"on", "ON"}:
-        vocabulary += (Predicate(learned, ("item",)),)
-    parsed = PARSE_DOMAIN(print_domain(AbstractModel(DOMAIN, vocabulary, ())))
-    assert len(parsed.predicates) == len(vocabulary)
+    texts = [(print_domain(m), print_problem(m, DOMAIN.objects, (), ())) for m in drawn]
+    read_with_translator([*texts, (print_domain(expert_model()), burger_problem())])

@@ -10,7 +10,16 @@ from lamp_environment import LAMP_DOMAIN, LampEnvironment
 from PIL import Image
 
 from skillwrapper.errors import ConformanceError
-from skillwrapper.world import Domain, Environment, Observation, Outcome, Picture, SkillInstance
+from skillwrapper.world import (
+    Domain,
+    Environment,
+    Object,
+    Observation,
+    Outcome,
+    Picture,
+    Scene,
+    SkillInstance,
+)
 from skillwrapper.world.conformance import check_environment
 
 
@@ -35,14 +44,32 @@ class WrongErrorBeforeReset(LampEnvironment):
 
 class StrangeObject(LampEnvironment):
     @property
-    def scene(self) -> tuple[str, ...]:
-        return ("hand", "lamp", "elephant")
+    def scene(self) -> Scene:
+        return Scene("default", (*LAMP_DOMAIN.objects, Object("elephant", ("lamp",))))
 
 
 class WrongOrder(LampEnvironment):
     @property
-    def scene(self) -> tuple[str, ...]:
-        return ("lamp", "hand")
+    def scene(self) -> Scene:
+        return Scene("default", LAMP_DOMAIN.objects[::-1])
+
+
+class OneSceneForAll(LampEnvironment):
+    """Takes no notice of the scene it is asked for."""
+
+    @property
+    def domain(self) -> Domain:
+        objects = LAMP_DOMAIN.objects
+        return replace(LAMP_DOMAIN, declared_scenes=(Scene("lit", objects), Scene("bare", objects)))
+
+    @property
+    def scene(self) -> Scene:
+        return self.domain.scene("lit")
+
+
+class AnyScene(LampEnvironment):
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        return super().reset(seed=seed)
 
 
 class NoPictures(LampEnvironment):
@@ -81,13 +108,14 @@ class RandomStart(LampEnvironment):
         super().__init__()
         self._resets = 0
 
-    def reset(self, *, seed: int) -> Observation:
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
         self._resets += 1
-        return super().reset(seed=seed + self._resets)
+        return super().reset(seed=seed + self._resets, scene=scene)
 
 
 class ForgetsToReset(LampEnvironment):
-    def reset(self, *, seed: int) -> Observation:
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        self.domain.scene(scene)
         return self.set_state(self._lit, seed=seed)
 
 
@@ -145,6 +173,8 @@ def test_failures_may_change_something_unless_declared_otherwise() -> None:
         (WrongErrorBeforeReset, "before reset"),
         (StrangeObject, "scene"),
         (WrongOrder, "scene"),
+        (OneSceneForAll, "scene"),
+        (AnyScene, "scene"),
         (NoPictures, "pictures"),
         (SameCameraTwice, "pictures"),
         (Jpeg, "pictures"),

@@ -51,7 +51,8 @@ class LayoutDrifts(LampEnvironment):
 
 
 class LayoutOfReset(LampEnvironment):
-    def reset(self, *, seed: int) -> Observation:
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        self.domain.scene(scene)
         return super().set_state(False, seed=seed + 7)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
-from skillwrapper.world import SkillInstance, load_domain
+from skillwrapper.world import Scene, SkillInstance, load_domain
 
 GOOD = """\
 name: kitchen
@@ -46,7 +46,43 @@ def test_good_file_is_read(tmp_path: Path) -> None:
     assert domain.object_by_name["apple"].types == ("food", "fruit")
     assert domain.skill_by_name["Take"].signature == "Take(robot, food)"
     assert domain.skill_instances == (SkillInstance("Take", ("arm", "apple")),)
-    assert [o.name for o in domain.scene_objects(("apple", "arm"))] == ["arm", "apple"]
+    assert domain.scene() == domain.scenes["default"] == Scene("default", domain.objects)
+
+
+SCENES = "scenes:\n  full: [apple, arm]\n  bare:\n  - arm\n"
+
+
+def test_scenes_name_sets_of_objects(tmp_path: Path) -> None:
+    domain = load_domain(written(tmp_path, GOOD + SCENES))
+    assert list(domain.scenes) == ["full", "bare"]
+    assert domain.scene().names == ("arm", "apple")  # in the domain's order
+    assert domain.scene("bare").objects == domain.objects[:1]
+    with pytest.raises(UnknownNameError, match="unknown scene 'bear'; did you mean 'bare'"):
+        domain.scene("bear")
+    take = SkillInstance("Take", ("arm", "apple"))
+    domain.check_instance(take, domain.scene("full"))
+    with pytest.raises(UnknownNameError, match="unknown object 'apple'"):
+        domain.check_instance(take, domain.scene("bare"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ("[apple, arm]", "[aple, arm]", 22, "in scene 'full' 'aple'; did you mean 'apple'?"),
+        ("  - arm", "  - arm\n  - leg", 25, "unknown object in scene 'bare' 'leg'"),
+        ("[apple, arm]", "[]", 22, "expected scene 'full' to name at least one object"),
+        ("[apple, arm]", "[arm, arm]", 22, "and each once"),
+        ("[apple, arm]", "apple", 22, "'scenes.full': expected a list"),
+    ],
+)
+def test_mistake_in_a_scene_is_named_with_its_line(
+    tmp_path: Path, old: str, new: str, line: int, message: str
+) -> None:
+    path = written(tmp_path, (GOOD + SCENES).replace(old, new))
+    with pytest.raises(UserError) as caught:
+        load_domain(path)
+    assert str(caught.value).startswith(f"{path}:{line}: ")
+    assert message in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +92,7 @@ def test_good_file_is_read(tmp_path: Path) -> None:
         ("agent:", "agnet:", 2, "did you mean 'agent'?"),
         ("name: kitchen", "name: 3 kitchens", 1, "'name': String should match"),
         ("parents: [food]", "parents: [foot]", 8, "unknown type 'foot'; did you mean 'food'"),
-        ("parents: [food]", "parents: food", 8, "valid list, got 'food'"),
+        ("parents: [food]", "parents: food", 8, "expected a list, got 'food'"),
         ("    types: [fruit]", "    types: []", 13, "at least 1 item"),
         ("    types: [fruit]", "    types: [fruits]", 13, "unknown type 'fruits'"),
         ("name: food, type: food", "name: food, type: fod", 20, "unknown type 'fod'"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
+from collections.abc import Hashable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,8 +11,11 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from skillwrapper.errors import ConfigurationError
+from skillwrapper.files.mistakes import Location, first_mistake
 
 Model = TypeVar("Model", bound=BaseModel)
+
+_DATES = "tag:yaml.org,2002:timestamp"
 
 
 @dataclass(frozen=True)
@@ -21,7 +24,7 @@ class YamlDocument:
 
     Attributes:
         path: the file.
-        data: plain Python data.
+        data: plain Python data; dates stay text.
         root: YAML's own nodes, with line numbers.
     """
 
@@ -34,22 +37,23 @@ class YamlDocument:
         """Parse a file.
 
         Raises:
-            ConfigurationError: if it is missing or no YAML; names file and line.
+            ConfigurationError: if it is missing, no YAML, or names a key twice; with file and line.
         """
         try:
             text = path.read_text(encoding="utf-8")
-            return cls(path, yaml.safe_load(text), yaml.compose(text, Loader=yaml.SafeLoader))
+            return cls(path, yaml.load(text, Loader=_Loader), compose(text))
         except OSError as error:
             raise ConfigurationError(f"{path}: cannot be read ({error.strerror})") from error
         except UnicodeDecodeError as error:
             raise ConfigurationError(f"{path}: expected UTF-8 text") from error
+        except RecursionError as error:
+            raise ConfigurationError(f"{path}: expected fewer levels of nesting") from error
         except yaml.YAMLError as error:
-            mark = getattr(error, "problem_mark", None)
-            line = f":{mark.line + 1}" if mark else ""
-            problem = getattr(error, "problem", None) or "not valid YAML"
-            raise ConfigurationError(f"{path}{line}: expected valid YAML ({problem})") from error
+            raise ConfigurationError(f"{path}{_line(error)}: {_problem(error)}") from error
+        except ValueError as error:
+            raise ConfigurationError(f"{path}: expected valid YAML ({error})") from error
 
-    def place(self, location: tuple[str | int, ...]) -> str:
+    def place(self, location: Location) -> str:
         """``file:line`` of a location such as ``("skills", "Pick")``, or of what encloses it."""
         node, line = self.root, self.root.start_mark.line if self.root else 0
         for key in location:
@@ -58,6 +62,12 @@ class YamlDocument:
                 break
             node, line = found
         return f"{self.path}:{line + 1}"
+
+    def part(self, key: str) -> YamlDocument:
+        """What stands under a key of the document; None as data if there is nothing."""
+        data = self.data.get(key) if isinstance(self.data, dict) else None
+        found = _child(self.root, key)
+        return YamlDocument(self.path, data, found[0] if found else None)
 
     def validate(self, model: type[Model]) -> Model:
         """The data as a pydantic model.
@@ -68,23 +78,52 @@ class YamlDocument:
         try:
             return model.model_validate(self.data)
         except ValidationError as error:
-            raise ConfigurationError(self._describe(error, model)) from error
+            mistake = first_mistake(error, model)
+            raise ConfigurationError(f"{self.place(mistake.location)}: {mistake.text}") from error
 
-    def _describe(self, error: ValidationError, model: type[BaseModel]) -> str:
-        # A misspelt key is an unknown one and a missing one: the unknown one says more.
-        mistakes = error.errors()
-        unknown = (mistake for mistake in mistakes if mistake["type"] == "extra_forbidden")
-        first = next(unknown, mistakes[0])
-        location = first["loc"]
-        name = ".".join(str(part) for part in location) or "the file"
-        if first["type"] == "extra_forbidden":
-            near = _nearest_field(model, location)
-            return f"{self.place(location)}: unknown key '{name}'{near}"
-        if first["type"] == "missing":
-            return f"{self.place(location)}: expected a value for '{name}', got none"
-        got = repr(first.get("input"))
-        got = got if len(got) < 60 else got[:57] + "..."
-        return f"{self.place(location)}: '{name}': {first['msg']}, got {got}"
+
+def compose(text: str) -> yaml.Node | None:
+    """The nodes of a YAML text, with their lines; JSON is YAML too."""
+    root: yaml.Node | None = yaml.compose(text, Loader=_Loader)
+    return root
+
+
+class _Loader(yaml.SafeLoader):
+    """Loads plain data only; refuses keys that are given twice, and keeps dates as text."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        """The keys and values of a node."""
+        seen: set[object] = set()
+        for key_node, _ in node.value:
+            if key_node.tag == "tag:yaml.org,2002:merge":
+                continue
+            key = self.construct_object(key_node, deep=True)
+            if not isinstance(key, Hashable):
+                raise yaml.constructor.ConstructorError(
+                    None, None, "expected text as a key", key_node.start_mark
+                )
+            if key in seen:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"the key '{key}' is given twice", key_node.start_mark
+                )
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, pattern) for tag, pattern in resolvers if tag != _DATES]
+    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+
+
+def _line(error: yaml.YAMLError) -> str:
+    mark = getattr(error, "problem_mark", None)
+    return f":{mark.line + 1}" if mark else ""
+
+
+def _problem(error: yaml.YAMLError) -> str:
+    problem = getattr(error, "problem", None) or "not valid YAML"
+    return f"expected valid YAML ({problem})"
 
 
 def _child(node: yaml.Node | None, key: str | int) -> tuple[yaml.Node, int] | None:
@@ -95,31 +134,3 @@ def _child(node: yaml.Node | None, key: str | int) -> tuple[yaml.Node, int] | No
     if isinstance(node, yaml.SequenceNode) and isinstance(key, int) and key < len(node.value):
         return node.value[key], node.value[key].start_mark.line
     return None
-
-
-def _nearest_field(model: type[BaseModel], location: tuple[str | int, ...]) -> str:
-    """A hint naming the valid key nearest to an unknown one."""
-    fields = _fields_at(model, location[:-1])
-    near = difflib.get_close_matches(str(location[-1]), fields, n=1, cutoff=0.4)
-    if near:
-        return f"; did you mean '{near[0]}'?"
-    return f"; expected one of: {', '.join(fields)}" if fields else ""
-
-
-def _fields_at(model: type[BaseModel], path: tuple[str | int, ...]) -> list[str]:
-    """Names of the fields of the model nested at a path; empty if it cannot be told."""
-    models = [model]
-    for part in path:
-        inner: list[type[BaseModel]] = []
-        for candidate in models:
-            if isinstance(part, str) and part in candidate.model_fields:
-                inner += _models_in(candidate.model_fields[part].annotation)
-        models = inner or models
-    return sorted({name for candidate in models for name in candidate.model_fields})
-
-
-def _models_in(annotation: Any) -> list[type[BaseModel]]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    arguments = getattr(annotation, "__args__", ())
-    return [model for argument in arguments for model in _models_in(argument)]

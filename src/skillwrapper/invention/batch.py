@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from skillwrapper.invention.inventor import Decision, Verdict
+from skillwrapper.invention.inventor import CandidateDecision, Verdict
 from skillwrapper.invention.questions import BatchInventionQuestion, InventionAnswer
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import Fit, Fitter
@@ -39,7 +39,7 @@ class BatchInventor:
         vocabulary: Vocabulary,
         adviser: BatchAdviser,
         count: int,
-        listener: Callable[[Decision], None] = lambda decision: None,
+        listener: Callable[[CandidateDecision], None] = lambda decision: None,
     ) -> None:
         self._fitter = fitter
         self._vocabulary = vocabulary
@@ -64,4 +64,4 @@ class BatchInventor:
         for predicate in self._vocabulary.fresh(self._adviser.invent_batch(question).predicates):
             self._vocabulary.accept(predicate)
             reason = "one of the batch"
-            self._listener(Decision(Verdict.ACCEPTED, predicate, None, None, reason))
+            self._listener(CandidateDecision(Verdict.ACCEPTED, predicate, None, None, reason))

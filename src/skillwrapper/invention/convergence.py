@@ -42,7 +42,7 @@ class Convergence:
     def held_back_errors(self) -> int:
         """How many new transitions the model from before them predicts wrongly.
 
-        Transitions that hang on an unknown label are left out (DESIGN.md D10).
+        Transitions that hang on an unknown label are left out (D10).
         """
         before = self._before
         if before is None:

@@ -49,7 +49,7 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True)
-class Decision:
+class CandidateDecision:
     """What was decided of one candidate, and why.
 
     Attributes:
@@ -100,7 +100,7 @@ class _Trial:
         """Whether it explains at least as much as it takes, but for ``slack`` operators.
 
         What it leaves of the third and fourth kind counts only if one of these was asked for:
-        a good relation often has to wait for its partner (DESIGN.md D6).
+        a good relation often has to wait for its partner (D6).
         """
         allowed = slack * OPERATOR_COST
         if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT):
@@ -125,7 +125,7 @@ class Inventor:
         vocabulary: Vocabulary,
         proposer: Proposer,
         settings: LearningSettings,
-        listener: Callable[[Decision], None] = lambda decision: None,
+        listener: Callable[[CandidateDecision], None] = lambda decision: None,
     ) -> None:
         self._listener = listener
         self._fitter = fitter
@@ -188,7 +188,7 @@ class Inventor:
         self._attempts.clear()
         reason = "it takes more operators than it explains transitions"
         for predicate in predicates:
-            self._listener(Decision(Verdict.RETRACTED, predicate, None, None, reason))
+            self._listener(CandidateDecision(Verdict.RETRACTED, predicate, None, None, reason))
 
     def _resolve(self, inconsistency: Inconsistency, fit: Fit) -> None:
         """Look for a predicate among the dormant ones, then among those that the model proposes.
@@ -247,7 +247,9 @@ class Inventor:
         if best is not None:
             verdict = Verdict.REVIVED if best.dormant else Verdict.ACCEPTED
             reason = "the best that came for an inconsistency"
-            self._listener(Decision(verdict, best.predicate, inconsistency, best.score, reason))
+            self._listener(
+                CandidateDecision(verdict, best.predicate, inconsistency, best.score, reason)
+            )
             self._accept(best)
 
     def _best(self, trials: Sequence[_Trial]) -> _Trial | None:
@@ -269,7 +271,7 @@ class Inventor:
             elif not dormant:
                 self._vocabulary.reject(predicate)
                 self._listener(
-                    Decision(
+                    CandidateDecision(
                         Verdict.REJECTED,
                         predicate,
                         inconsistency,
@@ -379,4 +381,6 @@ class Inventor:
                 reason = "another candidate leaves less unexplained"
             if not trial.dormant:
                 self._vocabulary.reject(trial.predicate)
-        self._listener(Decision(verdict, trial.predicate, inconsistency, trial.score, reason))
+        self._listener(
+            CandidateDecision(verdict, trial.predicate, inconsistency, trial.score, reason)
+        )

@@ -1,4 +1,4 @@
-"""Pruning: predicates that the data can do without are set dormant (DESIGN.md D9)."""
+"""Pruning: predicates that the data can do without are set dormant (D9)."""
 
 from __future__ import annotations
 

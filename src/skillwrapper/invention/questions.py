@@ -14,7 +14,7 @@ from skillwrapper.world.skills import Skill
 
 @dataclass(frozen=True)
 class InventionQuestion:
-    """Which predicate is missing (paper, Section 3.2; DESIGN.md D1, D5, D8).
+    """Which predicate is missing (paper, Section 3.2; D1, D5, D8).
 
     Attributes:
         domain: types, objects and skills.

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+import itertools
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from skillwrapper.symbols import Predicate
@@ -15,7 +17,7 @@ class Vocabulary:
     Attributes:
         active: predicates that take part in learning.
         dormant: predicates set aside; they keep their labels and are tried again before the
-            model is asked (DESIGN.md D9).
+            model is asked (D9).
         rejected: candidates rejected since the vocabulary last changed (D8).
     """
 
@@ -26,12 +28,16 @@ class Vocabulary:
         self.rejected: tuple[Predicate, ...] = ()
 
     def fresh(self, proposed: Iterable[Predicate]) -> tuple[Predicate, ...]:
-        """The proposed predicates that are new; one known for another type is widened (D3)."""
-        known = {*self.active, *self.dormant, *self.rejected}
+        """The proposed predicates that are new.
+
+        One known for another type is widened (docs/semantics.md, D3); one that shares its name
+        with another meaning gets another name.
+        """
+        known = {_identity(p) for p in (*self.active, *self.dormant, *self.rejected)}
         chosen: dict[str, Predicate] = {}
         for predicate in proposed:
             candidate = self._reconcile(predicate)
-            if candidate not in known:
+            if _identity(candidate) not in known:
                 chosen.setdefault(candidate.name, candidate)
         return tuple(chosen.values())
 
@@ -66,18 +72,16 @@ class Vocabulary:
         self.rejected = tuple(predicates)
 
     def _reconcile(self, predicate: Predicate) -> Predicate:
-        """Resolve a clash of names: widen the types if possible, else rename."""
+        """Resolve a clash of names: the known one, a wider one, or else another name."""
         known = {p.name: p for p in (*self.active, *self.dormant)}
-        namesake = known.get(predicate.name, predicate)
-        if namesake.types == predicate.types:
-            return predicate
-        widened = self._widen(namesake, predicate)
-        if widened is not None:
-            return widened
-        name = predicate.name
-        while known.get(name, predicate).types != predicate.types:
-            name = "_".join((name, *(predicate.types or ("scene",))))
-        return replace(predicate, name=name)
+        wider = {
+            name: self._widen(namesake, predicate)
+            for name, namesake in known.items()
+            if _mean_the_same(namesake, predicate)
+        }
+        names = _names(predicate, known.get(predicate.name))
+        name = next(n for n in names if n not in known or wider.get(n) is not None)
+        return wider.get(name) or replace(predicate, name=name)
 
     def _widen(self, known: Predicate, other: Predicate) -> Predicate | None:
         if known.arity != other.arity:
@@ -92,3 +96,36 @@ class Vocabulary:
         shared = self._types.ancestors[first] & self._types.ancestors[second]
         specific = self._types.most_specific(shared)
         return specific[0] if specific else None
+
+
+def _names(predicate: Predicate, namesake: Predicate | None) -> Iterator[str]:
+    """Names for a predicate, its own first, then those that tell it from its namesake."""
+    yield predicate.name
+    name = predicate.name
+    if namesake is not None and namesake.types != predicate.types:
+        name = "_".join((name, *(predicate.types or ("scene",))))
+        yield name
+    for number in itertools.count(2):
+        yield f"{name}_{number}"
+
+
+def _mean_the_same(known: Predicate, other: Predicate) -> bool:
+    """Whether two predicates of one name say the same, if perhaps of other types.
+
+    One that comes without a meaning means what the known one does.
+    """
+    return not other.semantics or _meaning(known) == _meaning(other)
+
+
+def _identity(predicate: Predicate) -> tuple[str, tuple[str, ...], str]:
+    return predicate.name, predicate.types, _meaning(predicate)
+
+
+def _meaning(predicate: Predicate) -> str:
+    """The semantics without case, punctuation and the names of the parameters' types."""
+    text = " ".join(re.findall(r"\w+", predicate.semantics.casefold()))
+    for place, name in enumerate(predicate.types):
+        spoken = " ".join(re.findall(r"\w+", name.casefold()))
+        forms = {re.escape(spoken), re.escape(spoken.replace("_", " "))}
+        text = re.sub(rf"\b(?:{'|'.join(sorted(forms))})\b", f"?{place}", text)
+    return text

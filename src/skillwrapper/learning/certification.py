@@ -1,4 +1,4 @@
-"""The certificate: Lemma 1 and Theorem 1, checked on the recorded data (DESIGN.md D15)."""
+"""The certificate: Lemma 1 and Theorem 1, checked on the recorded data (D15)."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Cluster:
 
     @property
     def is_no_op(self) -> bool:
-        """Whether none of the transitions changed anything visible (DESIGN.md D7)."""
+        """Whether none of the transitions changed anything visible (D7)."""
         return all(bool(g.table.unchanged[g.rows].all()) for g in self.groups)
 
 
@@ -87,7 +87,7 @@ def bundle_groups(groups: Sequence[Group]) -> Iterator[Bundle]:
 def cluster_successes(data: SkillData) -> tuple[Cluster, ...]:
     """Cluster the successes of a skill by their lifted changes, sorted by change.
 
-    A success of which the lifted change is not known founds no cluster (DESIGN.md D10).
+    A success of which the lifted change is not known founds no cluster (D10).
     """
     found: dict[LiftedChange, list[Group]] = {}
     for table in data:

@@ -1,4 +1,4 @@
-"""Conditional effects: changes that range over a set of objects (DESIGN.md D5).
+"""Conditional effects: changes that range over a set of objects (D5).
 
 A tray that is moved takes along whatever lies on it. As plain effects that is another operator
 for every number of things; as conditional effects it is one: for every other object that lies on

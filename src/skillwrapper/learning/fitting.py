@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from skillwrapper.grounding import FALSE, TRUE
+from skillwrapper.learning.determinism import make_deterministic
 from skillwrapper.learning.inconsistencies import (
     Inconsistency,
+    Misprediction,
     Witness,
-    Wrong,
     count_valid_effects,
     count_valid_executability,
-    describe_wrong,
-    find_wrong,
+    describe_mispredictions,
+    find_mispredictions,
 )
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
-from skillwrapper.learning.remedies import learn_deterministic_operators
 from skillwrapper.symbols import AbstractModel, Predicate
 from skillwrapper.transitions.dataset import Dataset, Reading, TruthSource
 from skillwrapper.transitions.tables import SkillData
@@ -47,16 +47,16 @@ class SkillFit:
     @cached_property
     def witnesses(self) -> frozenset[Witness]:
         """All inconsistencies, in a form that can be compared across vocabularies."""
-        return frozenset((wrong.kind, self.skill, wrong.culprit) for wrong in self._wrong)
+        return frozenset((m.kind, self.skill, m.culprit) for m in self._mispredictions)
 
     @cached_property
     def inconsistencies(self) -> tuple[Inconsistency, ...]:
         """All, in order of kind and time."""
-        return describe_wrong(self.skill, self.predictions, self._wrong)
+        return describe_mispredictions(self.skill, self.predictions, self._mispredictions)
 
     @cached_property
-    def _wrong(self) -> tuple[Wrong, ...]:
-        return find_wrong(self.predictions)
+    def _mispredictions(self) -> tuple[Misprediction, ...]:
+        return find_mispredictions(self.predictions)
 
     @property
     def cost(self) -> int:
@@ -65,11 +65,11 @@ class SkillFit:
 
     @cached_property
     def undecided(self) -> frozenset[int]:
-        """Numbers of the transitions that hang on an unknown label (DESIGN.md D10)."""
+        """Numbers of the transitions that hang on an unknown label (D10)."""
         return frozenset(int(i) for p in self.predictions for i in p.table.ids[p.undecided])
 
     def score(self, kind: InconsistencyKind) -> float:
-        """Share of valid transitions (Algorithm 5 of the paper, with DESIGN.md D6).
+        """Share of valid transitions (Algorithm 5 of the paper, with D6).
 
         Executability counts for PRECONDITION and DETERMINISM, changes for the other kinds;
         1.0 if no transition is decided.
@@ -144,7 +144,7 @@ class Fitter:
         domain: types, objects and skills.
         dataset: the transitions; may grow.
         truth: the labels of their pictures.
-        absences: whether preconditions may be universal absences (DESIGN.md D2).
+        absences: whether preconditions may be universal absences (D2).
     """
 
     def __init__(
@@ -181,7 +181,7 @@ class Fitter:
         return tuple(p for p in predicates if not self.is_tautology(p))
 
     def is_tautology(self, predicate: Predicate) -> bool:
-        """Whether all known labels of a predicate are equal, over all data (DESIGN.md D9)."""
+        """Whether all known labels of a predicate are equal, over all data (D9)."""
         key = (predicate, len(self.dataset))
         if key not in self._tautology:
             seen: set[int] = set()
@@ -220,7 +220,5 @@ def fit_skill(
     absences: bool = True,
 ) -> SkillFit:
     """Learn one skill from its transitions."""
-    operators, predictions = learn_deterministic_operators(
-        domain, skill, data, predicates, absences=absences
-    )
+    operators, predictions = make_deterministic(domain, skill, data, predicates, absences=absences)
     return SkillFit(skill.name, operators, predictions)

@@ -1,6 +1,6 @@
 """The four kinds of inconsistency between data and model, each with its witnesses.
 
-Conditions 1 and 2 of the paper (Section 3.2), determinism (DESIGN.md D5) and unexplained changes
+Conditions 1 and 2 of the paper (Section 3.2), determinism (D5) and unexplained changes
 (D1). An inconsistency names two transitions; many pairs of one cause count once (D8).
 """
 
@@ -53,7 +53,7 @@ class Inconsistency:
 
 
 @dataclass(frozen=True, eq=False)
-class Wrong:
+class Misprediction:
     """A transition that is wrong, before it is said of which cause.
 
     Attributes:
@@ -78,7 +78,7 @@ class Wrong:
         return int(self.prediction.table.ids[self.row])
 
 
-def find_wrong(predictions: Sequence[TablePrediction]) -> tuple[Wrong, ...]:
+def find_mispredictions(predictions: Sequence[TablePrediction]) -> tuple[Misprediction, ...]:
     """All transitions of a skill that are wrong, once for every kind, by kind and table."""
     found = [
         *_preconditions(predictions),
@@ -89,12 +89,12 @@ def find_wrong(predictions: Sequence[TablePrediction]) -> tuple[Wrong, ...]:
     return tuple(found)
 
 
-def describe_wrong(
-    skill: str, predictions: Sequence[TablePrediction], found: Iterable[Wrong]
+def describe_mispredictions(
+    skill: str, predictions: Sequence[TablePrediction], found: Iterable[Misprediction]
 ) -> tuple[Inconsistency, ...]:
     """An inconsistency for each transition that is wrong."""
     partners = _Partners(predictions)
-    return tuple(_describe(skill, wrong, partners) for wrong in found)
+    return tuple(_describe(skill, one, partners) for one in found)
 
 
 def distinct_causes(found: Iterable[Inconsistency]) -> tuple[Inconsistency, ...]:
@@ -106,7 +106,7 @@ def distinct_causes(found: Iterable[Inconsistency]) -> tuple[Inconsistency, ...]
 
 
 class _Partners:
-    """Finds the member of a cluster that differs least from a transition (DESIGN.md D8)."""
+    """Finds the member of a cluster that differs least from a transition (D8)."""
 
     def __init__(self, predictions: Sequence[TablePrediction]) -> None:
         self._instance: dict[int, SkillInstance] = {}
@@ -120,24 +120,24 @@ class _Partners:
         return min(members, key=lambda i: (self._instance[i] != own, abs(i - to), i))
 
 
-def _describe(skill: str, wrong: Wrong, partners: _Partners) -> Inconsistency:
-    table, culprit = wrong.prediction.table, wrong.culprit
-    instance = table.instances[table.which[wrong.row]]
-    state = lifted_state(table.space, table.before[wrong.row], instance)
-    partner = partners.nearest(wrong.members, culprit) if wrong.members else None
-    failed = wrong.kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
+def _describe(skill: str, found: Misprediction, partners: _Partners) -> Inconsistency:
+    table, culprit = found.prediction.table, found.culprit
+    instance = table.instances[table.which[found.row]]
+    state = lifted_state(table.space, table.before[found.row], instance)
+    partner = partners.nearest(found.members, culprit) if found.members else None
+    failed = found.kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
     return Inconsistency(
-        wrong.kind,
+        found.kind,
         skill,
         first=partner if failed and partner is not None else culprit,
         second=culprit if failed else partner,
         culprit=culprit,
-        identity=(skill, wrong.kind, state, wrong.change),
-        unexplained=wrong.unexplained,
+        identity=(skill, found.kind, state, found.change),
+        unexplained=found.unexplained,
     )
 
 
-def _preconditions(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
+def _preconditions(predictions: Sequence[TablePrediction]) -> Iterator[Misprediction]:
     """Condition 1: a failure that some operator calls applicable."""
     for prediction in predictions:
         blamed: dict[int, LearnedOperator] = {}
@@ -148,7 +148,7 @@ def _preconditions(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
         yield from _blame(InconsistencyKind.PRECONDITION, prediction, blamed)
 
 
-def _effects(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
+def _effects(predictions: Sequence[TablePrediction]) -> Iterator[Misprediction]:
     """Condition 2: a failure with the same lifted change as a success that changed something."""
     by_change = _changes_of_successes(predictions)
     for prediction in predictions:
@@ -156,10 +156,10 @@ def _effects(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
             change = group.lifting.change
             for row in group.rows if change in by_change else ():
                 kind = InconsistencyKind.EFFECT
-                yield Wrong(kind, prediction, int(row), change, by_change[change])
+                yield Misprediction(kind, prediction, int(row), change, by_change[change])
 
 
-def _determinism(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
+def _determinism(predictions: Sequence[TablePrediction]) -> Iterator[Misprediction]:
     """D5: a success for which an applicable operator predicts another change."""
     for prediction in predictions:
         blamed: dict[int, LearnedOperator] = {}
@@ -171,13 +171,13 @@ def _determinism(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
 
 def _blame(
     kind: InconsistencyKind, prediction: TablePrediction, blamed: Mapping[int, LearnedOperator]
-) -> Iterator[Wrong]:
+) -> Iterator[Misprediction]:
     for row in sorted(blamed):
         cluster = blamed[row].cluster
-        yield Wrong(kind, prediction, row, cluster.change, cluster.ids)
+        yield Misprediction(kind, prediction, row, cluster.change, cluster.ids)
 
 
-def _unexplained(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
+def _unexplained(predictions: Sequence[TablePrediction]) -> Iterator[Misprediction]:
     """D1: a success that changed an atom connected to no argument, and no operator says so."""
     kind = InconsistencyKind.UNEXPLAINED
     for prediction in predictions:
@@ -185,7 +185,7 @@ def _unexplained(predictions: Sequence[TablePrediction]) -> Iterator[Wrong]:
             atoms = group.lifting.unexplained
             names = tuple(sorted({(False, a.predicate, ()) for a in atoms}))
             for row in group.rows[~prediction.accounted[group.rows]] if atoms else ():
-                yield Wrong(kind, prediction, int(row), names, (), atoms)
+                yield Misprediction(kind, prediction, int(row), names, (), atoms)
 
 
 def _changes_of_successes(
@@ -207,7 +207,7 @@ def _changes_of_successes(
 
 
 def count_valid_executability(predictions: Sequence[TablePrediction]) -> tuple[int, int]:
-    """(valid, decided) transitions: the prediction equals the outcome (DESIGN.md D6)."""
+    """(valid, decided) transitions: the prediction equals the outcome (D6)."""
     valid = decided = 0
     for prediction in predictions:
         executable = prediction.executable
@@ -218,7 +218,7 @@ def count_valid_executability(predictions: Sequence[TablePrediction]) -> tuple[i
 
 
 def count_valid_effects(predictions: Sequence[TablePrediction]) -> tuple[int, int]:
-    """(valid, decided) transitions by their changes (DESIGN.md D6).
+    """(valid, decided) transitions by their changes (D6).
 
     Valid is a success of which nothing is left unexplained, and a failure with the lifted change
     of no success.

@@ -10,8 +10,8 @@ class InconsistencyKind(StrEnum):
 
     PRECONDITION: a success and a failure are both predicted to succeed (paper, Condition 1).
     EFFECT: a success and a failure made the same change (paper, Condition 2).
-    DETERMINISM: an applicable operator predicts another change than was seen (DESIGN.md D5).
-    UNEXPLAINED: something changed that is connected to no argument (DESIGN.md D1).
+    DETERMINISM: an applicable operator predicts another change than was seen (D5).
+    UNEXPLAINED: something changed that is connected to no argument (D1).
     """
 
     PRECONDITION = "precondition"

@@ -1,7 +1,7 @@
 """Lifted abstract states: what is seen around the arguments of a skill instance.
 
 Two states are the same, seen from their skill instances, if one turns into the other by renaming
-(Lemma 1 as of DESIGN.md D15): the restriction to atoms of the arguments, nullary atoms, the types
+(Lemma 1 as of D15): the restriction to atoms of the arguments, nullary atoms, the types
 of the arguments, and of every context object its types and its unary atoms.
 """
 

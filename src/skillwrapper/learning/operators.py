@@ -31,7 +31,7 @@ class LearnedOperator:
     cluster: Cluster
 
 
-def learn_operators(
+def cluster_operators(
     domain: Domain,
     skill: Skill,
     data: SkillData,

@@ -1,6 +1,6 @@
 """Preconditions of a cluster: what held before every one of its transitions.
 
-Three kinds of evidence (DESIGN.md D2, D10):
+Three kinds of evidence (D2, D10):
 
 * plain literals over the operator's parameters: seen to hold at least once, never seen not to;
 * universal absence: no other object ever stood in the relation to a parameter;
@@ -72,8 +72,8 @@ def gather_evidence(
         groups: groups of one cluster, at least one.
         predicates: the vocabulary without tautologies.
         arity: number of arguments of the skill.
-        between_context: also literals between context objects (DESIGN.md D5).
-        absences: whether universal absences are looked for (DESIGN.md D2).
+        between_context: also literals between context objects (D5).
+        absences: whether universal absences are looked for (D2).
     """
     bundles = tuple(bundle_groups(groups))
     size = len(groups[0].lifting.objects)

@@ -13,7 +13,7 @@ class LearningSettings(BaseModel):
     Attributes:
         threshold: least score of a candidate predicate (the paper's h; 0.6 for its simulated
             kitchen, 0.5 for its robots).
-        attempts: how often the model is asked for one inconsistency (DESIGN.md D8).
+        attempts: how often the model is asked for one inconsistency (D8).
         candidates: how many candidates are asked for at once; the best is kept (D6).
         max_inventions: upper bound on questions in one iteration.
         prune: whether superfluous predicates are set dormant (D9).

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -17,7 +17,7 @@ from skillwrapper.world.observation import Observation
 from skillwrapper.world.types import Object
 
 
-class Evaluator(Protocol):
+class PictureReader(Protocol):
     """Who reads pictures; ``vlm.assistant.Assistant`` is one."""
 
     def evaluate(self, questions: Sequence[EvaluationQuestion]) -> Sequence[EvaluationAnswer]:
@@ -26,7 +26,7 @@ class Evaluator(Protocol):
 
 
 class TruthTable:
-    """Labels by observation and predicate; only what is missing is asked for.
+    """Labels by scene, predicate (its meaning included) and picture; only what is missing is asked.
 
     Each observation with something missing is one question about all missing predicates; all
     questions of a call are independent and go out together.
@@ -36,9 +36,9 @@ class TruthTable:
         question_sizes: how many questions were asked with so many groundings.
     """
 
-    def __init__(self, domain: Domain, evaluator: Evaluator) -> None:
+    def __init__(self, domain: Domain, reader: PictureReader) -> None:
         self._domain = domain
-        self._evaluator = evaluator
+        self._reader = reader
         self._labels: dict[tuple[tuple[Object, ...], Predicate], dict[str, Labels]] = {}
         self._agreement: dict[Predicate, list[float]] = {}
         self.asked = 0
@@ -110,11 +110,12 @@ class TruthTable:
                 )
         return questions
 
-    def _ask(self, questions: Sequence[EvaluationQuestion]) -> None:
+    def _ask(self, wanted: Sequence[EvaluationQuestion]) -> None:
+        questions = [part for question in wanted for part in _without_namesakes(question)]
         if not questions:
             return
         self.asked += sum(len(q.predicates) for q in questions)
-        answers = self._evaluator.evaluate(questions)
+        answers = self._reader.evaluate(questions)
         for question, answer in zip(questions, answers, strict=True):
             groundings = 0
             for predicate in question.predicates:
@@ -125,6 +126,20 @@ class TruthTable:
                 shares = [answer.agreement[atom] for atom in atoms if atom in answer.agreement]
                 self._agreement.setdefault(predicate, []).extend(shares)
             self.question_sizes[groundings] += 1
+
+
+def _without_namesakes(question: EvaluationQuestion) -> Iterator[EvaluationQuestion]:
+    """The question in parts: answers name predicates, so no part may hold two of one name."""
+    parts: list[dict[str, Predicate]] = []
+    for predicate in question.predicates:
+        for part in parts:
+            if predicate.name not in part:
+                part[predicate.name] = predicate
+                break
+        else:
+            parts.append({predicate.name: predicate})
+    for part in parts:
+        yield replace(question, predicates=tuple(part.values()))
 
 
 def encode_labels(atoms: Sequence[Atom], labels: Mapping[Atom, bool | None]) -> Labels:

@@ -10,7 +10,7 @@ from typing import Any
 import yaml
 
 from skillwrapper.evaluation.exact.learning_curves import EXACT_CURVE
-from skillwrapper.files.writing import read_lines
+from skillwrapper.files.json_documents import read_lines
 from skillwrapper.report.account import CallAccount, read_account
 from skillwrapper.report.charts import LineChart
 from skillwrapper.report.curves import learning_charts

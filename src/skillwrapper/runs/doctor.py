@@ -173,7 +173,7 @@ def _specimen() -> _Specimen:
         second = kitchen.execute(in_vain)
         return _Specimen(
             kitchen.domain,
-            kitchen.domain.scene_objects(kitchen.scene),
+            kitchen.scene.objects,
             start,
             Transition(start, picked, first.success, first.observation),
             Transition(first.observation, in_vain, second.success, second.observation),

@@ -22,7 +22,7 @@ from pathlib import Path
 import yaml
 
 from skillwrapper.errors import RunFolderError
-from skillwrapper.files.writing import write_atomically
+from skillwrapper.files.writing import is_leftover, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.provenance import provenance
@@ -60,7 +60,7 @@ class RunFolder:
                 )
             folder._keep_domain(domain_file)
             return folder
-        if path.exists() and not all(_is_unfinished(p, CONFIG) for p in path.iterdir()):
+        if path.exists() and not all(map(is_leftover, path.iterdir())):
             raise RunFolderError(
                 f"{path} is not empty and holds no run; choose another --out, nothing was changed"
             )
@@ -97,9 +97,7 @@ class RunFolder:
         Raises:
             ConfigurationError: if the file was damaged.
         """
-        document = YamlDocument.read(self.path / CONFIG)
-        inner = document.data.get("run") if isinstance(document.data, dict) else None
-        return YamlDocument(document.path, inner, _under(document.root, "run")).validate(RunConfig)
+        return YamlDocument.read(self.path / CONFIG).part("run").validate(RunConfig)
 
     @property
     def model(self) -> Path:
@@ -197,17 +195,3 @@ def _lock(handle: int, path: Path) -> None:
         ) from error
     except OSError:
         """A file system without locks: nobody can be kept out."""
-
-
-def _is_unfinished(path: Path, name: str) -> bool:
-    """Whether a file is what a crash left of writing the named one."""
-    return path.name.startswith(f".{name}.") and path.suffix == ".tmp"
-
-
-def _under(root: yaml.Node | None, key: str) -> yaml.Node | None:
-    if isinstance(root, yaml.MappingNode):
-        for key_node, value_node in root.value:
-            if key_node.value == key:
-                found: yaml.Node = value_node
-                return found
-    return None

@@ -18,7 +18,7 @@ from skillwrapper.files.writing import append_line, write_json
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.invention.batch import BatchInventor
 from skillwrapper.invention.convergence import Convergence
-from skillwrapper.invention.inventor import Decision, Inventor, Verdict
+from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
 from skillwrapper.invention.proposer import ModelProposer
 from skillwrapper.invention.pruning import Pruned, prune
 from skillwrapper.invention.vocabulary import Vocabulary
@@ -45,6 +45,7 @@ from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -183,15 +184,14 @@ class LearningRun:
 
     def _explore(self) -> Episode:
         seed = self._config.layout_seed(self._iteration)
-        return self._recorder.run(self._iteration, seed, self._choose, self._executed)
+        scenes = tuple(self.dataset.domain.scenes)
+        scene = scenes[(self._iteration - 1) % len(scenes)]
+        return self._recorder.run(self._iteration, seed, scene, self._choose, self._executed)
 
-    def _choose(
-        self, scene: tuple[str, ...], observation: Observation
-    ) -> tuple[SkillInstance, ...]:
+    def _choose(self, scene: Scene, observation: Observation) -> tuple[SkillInstance, ...]:
         fit = self._fitter.fit(self._vocabulary.active)
-        objects = self.dataset.domain.scene_objects(scene)
-        state = self.truth.labels(AtomSpace(fit.predicates, objects), [observation])[0]
-        situation = Situation(objects, observation, state, fit.model, find_untested(fit))
+        state = self.truth.labels(AtomSpace(fit.predicates, scene.objects), [observation])[0]
+        situation = Situation(scene.objects, observation, state, fit.model, find_untested(fit))
         choice = self._explorer.choose(situation)
         self._tell(EventKind.SEQUENCE_CHOSEN, **_describe_choice(choice))
         return choice.sequence
@@ -226,7 +226,7 @@ class LearningRun:
         }
         write_json(target / "summary.json", summary)
 
-    def _decided(self, decision: Decision) -> None:
+    def _decided(self, decision: CandidateDecision) -> None:
         if self._is_invention(decision):
             vocabulary = self._vocabulary.with_candidate(decision.predicate)
             self._readings.count_invention(self._everything(vocabulary))
@@ -242,7 +242,7 @@ class LearningRun:
         self._decisions.append(entry)
         self._tell(EventKind.PREDICATE_DECIDED, **entry)
 
-    def _is_invention(self, decision: Decision) -> bool:
+    def _is_invention(self, decision: CandidateDecision) -> bool:
         """Whether a candidate is new; one that is taken in the end after all was counted before."""
         if decision.inconsistency is None:
             return False

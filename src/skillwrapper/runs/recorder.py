@@ -6,14 +6,17 @@ from collections.abc import Callable
 from typing import Any
 
 from skillwrapper.errors import RobotError, RunFolderError
-from skillwrapper.files.writing import append_line, read_lines
+from skillwrapper.files.json_documents import read_lines
+from skillwrapper.files.writing import append_line
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
-Choose = Callable[[tuple[str, ...], Observation], tuple[SkillInstance, ...]]
+Choose = Callable[[Scene, Observation], tuple[SkillInstance, ...]]
 """From the scene and the first observation to the sequence to execute."""
 
 Listener = Callable[[Transition], None]
@@ -32,12 +35,15 @@ class EpisodeRecorder:
         self._folder = folder
         self._environment = environment
 
-    def run(self, number: int, seed: int, choose: Choose, listener: Listener) -> Episode:
+    def run(
+        self, number: int, seed: int, scene: str | None, choose: Choose, listener: Listener
+    ) -> Episode:
         """Record an episode.
 
         Args:
             number: of the episode, from 1.
             seed: for the reset of the environment.
+            scene: name of the scene to start in; None for the environment's choice.
             choose: decides what to execute; called in any case, so that choices by chance are
                 the same in a resumed run.
             listener: told of every new transition.
@@ -48,10 +54,11 @@ class EpisodeRecorder:
         """
         lines = list(read_lines(self._folder.episode(number)))
         if not lines:
-            return self._start(number, seed, choose, listener)
+            return self._start(number, seed, scene, choose, listener)
         header, entries = lines[0], lines[1:]
+        recorded = read_scene(header, self._environment.domain)
         start = self._folder.load_observation(header["start"])
-        sequence = choose(tuple(header["scene"]), start)
+        sequence = choose(recorded, start)
         if [str(i) for i in sequence] != header["sequence"]:
             raise RunFolderError(
                 f"{self._folder.episode(number)}: another sequence was recorded than this version "
@@ -59,18 +66,20 @@ class EpisodeRecorder:
             )
         transitions = read_transitions(self._folder, start, entries)
         if len(transitions) < len(sequence) and getattr(self._environment, "replayable", True):
-            self._repeat(start, seed, transitions)
+            self._repeat(start, seed, scene, transitions)
             for instance in sequence[len(transitions) :]:
                 transitions.append(self._execute(number, transitions, start, instance))
                 listener(transitions[-1])
-        return Episode(tuple(header["scene"]), seed, tuple(transitions))
+        return Episode(recorded, seed, tuple(transitions))
 
-    def _start(self, number: int, seed: int, choose: Choose, listener: Listener) -> Episode:
-        start = self._environment.reset(seed=seed)
-        scene = self._environment.scene
-        sequence = choose(scene, start)
+    def _start(
+        self, number: int, seed: int, scene: str | None, choose: Choose, listener: Listener
+    ) -> Episode:
+        start = self._environment.reset(seed=seed, scene=scene)
+        present = self._environment.scene
+        sequence = choose(present, start)
         header = {
-            "scene": list(scene),
+            "scene": {"name": present.name, "objects": list(present.names)},
             "seed": seed,
             "sequence": [str(i) for i in sequence],
             "start": self._folder.save_observation(start),
@@ -80,7 +89,7 @@ class EpisodeRecorder:
         for instance in sequence:
             transitions.append(self._execute(number, transitions, start, instance))
             listener(transitions[-1])
-        return Episode(scene, seed, tuple(transitions))
+        return Episode(present, seed, tuple(transitions))
 
     def _execute(
         self, number: int, done: list[Transition], start: Observation, instance: SkillInstance
@@ -97,9 +106,11 @@ class EpisodeRecorder:
         append_line(self._folder.episode(number), entry)
         return Transition(before, instance, outcome.success, outcome.observation)
 
-    def _repeat(self, start: Observation, seed: int, recorded: list[Transition]) -> None:
+    def _repeat(
+        self, start: Observation, seed: int, scene: str | None, recorded: list[Transition]
+    ) -> None:
         """Bring the environment to where the record ends."""
-        seen = self._environment.reset(seed=seed)
+        seen = self._environment.reset(seed=seed, scene=scene)
         if seen.key != start.key:
             raise RobotError(f"reset with seed {seed} shows another picture than was recorded")
         for transition in recorded:
@@ -119,9 +130,15 @@ def read_episode(folder: RunFolder, number: int) -> Episode:
     if not lines:
         raise RunFolderError(f"{folder.episode(number)}: expected a recorded episode, got none")
     header = lines[0]
+    scene = read_scene(header, load_domain(folder.path / "domain.yaml"))
     start = folder.load_observation(header["start"])
     transitions = read_transitions(folder, start, lines[1:])
-    return Episode(tuple(header["scene"]), header["seed"], tuple(transitions))
+    return Episode(scene, header["seed"], tuple(transitions))
+
+
+def read_scene(header: dict[str, Any], domain: Domain) -> Scene:
+    """The scene of the first line of an episode."""
+    return Scene.of(header["scene"]["name"], header["scene"]["objects"], domain.objects)
 
 
 def read_transitions(

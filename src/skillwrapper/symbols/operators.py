@@ -1,4 +1,4 @@
-"""Lifted operators (the paper's Section 2, with DESIGN.md D1, D2, D4 and D5)."""
+"""Lifted operators (the paper's Section 2, with docs/semantics.md, D1, D2, D4 and D5)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Variable:
 
 @dataclass(frozen=True, order=True)
 class Absence:
-    """Universal absence: no other object stands in the relation (DESIGN.md D2).
+    """Universal absence: no other object stands in the relation (docs/semantics.md, D2).
 
     ``Absence(Atom("on", ("?other", "?item")), ("?other",))`` says that no object other than
     the operator's own parameters is on ``?item``; the operator's parameters are spoken of by
@@ -50,7 +50,7 @@ Condition = Literal | Absence | Variable
 
 @dataclass(frozen=True, order=True)
 class ConditionalEffect:
-    """A change of every other object that meets a condition (DESIGN.md D5).
+    """A change of every other object that meets a condition (docs/semantics.md, D5).
 
     Attributes:
         quantified: the variable that ranges over all objects but the skill's own arguments; what
@@ -72,7 +72,7 @@ class ConditionalEffect:
 class Operator:
     """When a skill works in one way, and what it then changes.
 
-    Different parameters stand for different objects (DESIGN.md D4).
+    Different parameters stand for different objects (docs/semantics.md, D4).
 
     Attributes:
         name: unique in a model, e.g. ``Pick_1``.

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator, Variable
-from skillwrapper.symbols.pddl_names import PlannerNames, unique_names, variable_names
-from skillwrapper.symbols.pddl_types import ROOT, PddlTypes
+from skillwrapper.symbols.pddl_names import PlannerNames, unique_name, variable_names
+from skillwrapper.symbols.pddl_types import PddlTypes
 from skillwrapper.symbols.predicates import Atom, Literal, Predicate
 from skillwrapper.world.types import Object
 
@@ -34,6 +34,9 @@ def print_problem(
         objects: the objects of the scene.
         true_atoms: the ground atoms that are true at the start; all others are false.
         goal: the ground literals to reach.
+
+    Raises:
+        SymbolError: if an object has types that no object of the domain has together.
     """
     scene = tuple(objects)
     printer = _Printer(model, PlannerNames.of(model, scene), PddlTypes.of(model))
@@ -48,20 +51,25 @@ class _Printer:
 
     def domain(self) -> str:
         actions = [self._action(o) for o in sorted(self.model.operators, key=lambda o: o.name)]
-        name = next(iter(unique_names([self.model.domain.name], set()).values()))
         parts = [
+            *(
+                f" {_comment(f'{kind} {learned} is written {safe}')}"
+                for kind, learned, safe in self.names.altered
+            ),
             f"  (:requirements {' '.join(self._requirements())})",
             *self._types(),
             *self._predicates(),
             *actions,
         ]
-        return f"(define (domain {name})\n" + "\n".join(parts) + "\n)\n"
+        return f"(define (domain {self.names.domain})\n" + "\n".join(parts) + "\n)\n"
 
     def problem(
         self, objects: tuple[Object, ...], true_atoms: Iterable[Atom], goal: Iterable[Literal]
     ) -> str:
+        for item in objects:
+            self.types.check_object(item)
         names = self.names.objects
-        domain = next(iter(unique_names([self.model.domain.name], set()).values()))
+        domain = self.names.domain
         facts = [self._atom(atom, names) for atom in sorted(true_atoms)]
         facts += [
             f"({self.names.types[static]} {names[o.name]})"
@@ -99,20 +107,21 @@ class _Printer:
         if not self._is_typed:
             return
         yield "  (:types"
+        top = self.names.root if self.types.rooted else "object"
         if self.types.rooted:
-            yield f"    {ROOT} - object"
+            yield f"    {top} - object"
         for name in self.types.tree:
-            parent = self.types.parent(name)
-            yield f"    {self.names.types[name]} - {self._type_name(parent, top='object')}"
+            parent = self._type_name(self.types.parent(name), root=top)
+            yield f"    {self.names.types[name]} - {parent}"
         yield "  )"
 
-    def _type_name(self, name: str, top: str = ROOT) -> str:
-        if name == ROOT:
-            return ROOT if self.types.rooted else top
-        return self.names.types[name]
-
     def _typed(self, term: str, types: Iterable[str]) -> str:
-        return f"{term} - {self._type_name(self.types.type_of(types))}" if self._is_typed else term
+        if not self._is_typed:
+            return term
+        return f"{term} - {self._type_name(self.types.type_of(types), root=self.names.root)}"
+
+    def _type_name(self, name: str | None, root: str) -> str:
+        return root if name is None else self.names.types[name]
 
     def _predicates(self) -> Iterator[str]:
         if not self.types.static and not self.model.predicates:
@@ -133,9 +142,7 @@ class _Printer:
         taken: set[str] = set()
         parts = [self.names.predicates[predicate.name]]
         for type_name in predicate.types:
-            # A fresh call for every parameter numbers those of the same type.
-            variable = unique_names([type_name], taken)[type_name]
-            parts.append(self._typed(f"?{variable}", [type_name]))
+            parts.append(self._typed(f"?{unique_name(type_name, taken)}", [type_name]))
         return f"({' '.join(parts)})"
 
     def _action(self, operator: Operator) -> str:
@@ -241,5 +248,5 @@ def _clause(title: str, parts: Iterable[str]) -> list[str]:
 
 
 def _comment(text: str) -> str:
-    line = " ".join(text.split())
+    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
     return f" ; {line}" if line else ""

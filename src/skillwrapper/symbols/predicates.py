@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from skillwrapper.errors import SymbolError
 from skillwrapper.world.types import Object
@@ -17,10 +17,13 @@ _NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_-]*$")
 class Predicate:
     """A named property or relation with a meaning that can be read off a picture.
 
+    Two predicates are the same only if they also mean the same: labels that were read under one
+    meaning say nothing of another.
+
     Attributes:
         name: letters, digits, ``_`` and ``-``, starting with a letter.
         types: the type of every parameter; empty for a nullary predicate.
-        semantics: one sentence that says when it is true.
+        semantics: one sentence that says when it is true; part of the identity.
 
     Raises:
         SymbolError: if the name is not a name.
@@ -28,7 +31,7 @@ class Predicate:
 
     name: str
     types: tuple[str, ...]
-    semantics: str = field(default="", compare=False)
+    semantics: str = ""
 
     def __post_init__(self) -> None:
         if not _NAME.match(self.name):

@@ -15,10 +15,8 @@ from skillwrapper.transitions.tables import SkillData, SkillTable
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.types import Object
-
-Scene = tuple[str, ...]
-"""Names of the objects that are present."""
 
 
 class TruthSource(Protocol):
@@ -80,7 +78,7 @@ class Dataset:
 
     def objects(self, scene: Scene) -> tuple[Object, ...]:
         """The objects of a scene."""
-        return self.domain.scene_objects(scene)
+        return scene.objects
 
     def observations(self, scene: Scene) -> tuple[Observation, ...]:
         """The different observations of a scene, in order of time."""

@@ -1,7 +1,7 @@
 """Lifting changes: from what changed around a skill instance to a change over parameters.
 
 A lifted change names the skill's arguments by their positions 0 .. k-1 and every further object
-(effect context, DESIGN.md D2) by k, k+1, ...; equal up to renaming means equal as values.
+(effect context, D2) by k, k+1, ...; equal up to renaming means equal as values.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Lifting:
     Attributes:
         change: the connected part of the change, lifted.
         objects: the objects at the positions: the arguments, then the context.
-        unexplained: changed atoms that are connected to no argument (DESIGN.md D1), sorted.
+        unexplained: changed atoms that are connected to no argument (D1), sorted.
     """
 
     change: LiftedChange
@@ -61,7 +61,7 @@ def lift_change(
     """Lift the literals that became true with respect to the arguments of a skill instance.
 
     An atom belongs to the change if it is nullary or connected to an argument through objects
-    that it shares with other changed atoms (DESIGN.md D1).
+    that it shares with other changed atoms (D1).
 
     Args:
         changed: the literals that became true.

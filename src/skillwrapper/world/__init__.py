@@ -4,6 +4,7 @@ from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import EnumerableEnvironment, Environment
 from skillwrapper.world.episode import Episode, Outcome, Transition
 from skillwrapper.world.observation import Observation, Picture, encode_png, load_picture
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
 from skillwrapper.world.types import Object, TypeHierarchy
 
@@ -17,6 +18,7 @@ __all__ = [
     "Outcome",
     "Parameter",
     "Picture",
+    "Scene",
     "Skill",
     "SkillInstance",
     "Transition",

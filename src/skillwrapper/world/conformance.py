@@ -18,6 +18,7 @@ from skillwrapper.errors import ConformanceError, RobotError, UserError
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance, ground_skills
 
 Factory = Callable[[], Environment]
@@ -37,6 +38,7 @@ def check_environment(make: Factory, *, seed: int = 0, steps: int = 40) -> None:
     _check_protocol(make)
     _check_before_reset(make, seed)
     _check_scene(make, seed)
+    _check_scenes(make, seed)
     _check_pictures(make, seed)
     _check_observe(make, seed)
     _check_reset(make, seed, steps)
@@ -54,7 +56,7 @@ def require(condition: bool, check: str, message: str) -> None:
 def random_instances(environment: Environment, seed: int, count: int) -> Iterator[SkillInstance]:
     """Skill instances over the objects that are present, chosen at random by seed."""
     domain = environment.domain
-    instances = ground_skills(domain.skills, domain.scene_objects(environment.scene))
+    instances = ground_skills(domain.skills, environment.scene.objects)
     require(bool(instances), "scene", "expected objects that some skill accepts, got none")
     chance = random.Random(seed)
     for _ in range(count):
@@ -88,16 +90,30 @@ def _check_before_reset(make: Factory, seed: int) -> None:
 def _check_scene(make: Factory, seed: int) -> None:
     environment = make()
     environment.reset(seed=seed)
-    scene = tuple(environment.scene)
-    known = [o.name for o in environment.domain.objects]
-    unknown = sorted(set(scene) - set(known))
-    require(not unknown, "scene", f"expected objects of the domain, got {', '.join(unknown)}")
-    expected = tuple(name for name in known if name in scene)
+    scene = environment.scene
     require(
-        scene == expected and bool(scene),
-        "scene",
-        f"expected each object once in the domain's order {expected}, got {scene}",
+        isinstance(scene, Scene), "scene", f"expected a Scene as scene, got {type(scene).__name__}"
     )
+    known = [o.name for o in environment.domain.objects]
+    unknown = sorted(set(scene.names) - set(known))
+    require(not unknown, "scene", f"expected objects of the domain, got {', '.join(unknown)}")
+    expected = tuple(name for name in known if name in scene.names)
+    require(
+        scene.names == expected and bool(expected),
+        "scene",
+        f"expected each object once in the domain's order {expected}, got {scene.names}",
+    )
+
+
+def _check_scenes(make: Factory, seed: int) -> None:
+    """Every declared scene can be started in, and no other."""
+    environment = make()
+    for name, scene in environment.domain.scenes.items():
+        environment.reset(seed=seed, scene=name)
+        got = environment.scene
+        require(got == scene, "scene", f"expected {scene.names} in scene '{name}', got {got.names}")
+    unknown = partial(_reset, seed, "no such scene")
+    _require_error(UserError, "scene", "reset to an unknown scene", unknown, environment)
 
 
 def _check_pictures(make: Factory, seed: int) -> None:
@@ -171,6 +187,10 @@ def _check_close(make: Factory, seed: int) -> None:
         except Exception as error:
             message = f"expected the {number} close to pass, got {error!r}"
             raise ConformanceError("close", message) from error
+
+
+def _reset(seed: int, scene: str, environment: Environment) -> None:
+    environment.reset(seed=seed, scene=scene)
 
 
 def _execute(instance: SkillInstance, environment: Environment) -> None:

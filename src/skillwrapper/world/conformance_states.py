@@ -45,7 +45,7 @@ def check_enumerable_environment(
 
 def _instances(environment: EnumerableEnvironment) -> tuple[SkillInstance, ...]:
     domain = environment.domain
-    return ground_skills(domain.skills, domain.scene_objects(environment.scene))
+    return ground_skills(domain.skills, environment.scene.objects)
 
 
 def _check_reachable(environment: EnumerableEnvironment, states: Sequence[Any]) -> None:
@@ -151,6 +151,6 @@ def _check_atoms(environment: EnumerableEnvironment, states: Sequence[Any]) -> N
     for state in states:
         atoms = list(environment.true_atoms(state))
         terms = {term for _, arguments in atoms for term in arguments}
-        unknown = sorted(terms - set(environment.scene))
+        unknown = sorted(terms - set(environment.scene.names))
         require(not unknown, "true atoms", f"expected objects of the scene, got {unknown}")
         require(len(set(atoms)) == len(atoms), "true atoms", "expected each atom once, got more")

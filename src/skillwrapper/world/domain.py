@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.world.scenes import DEFAULT_SCENE, Scene
 from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
 from skillwrapper.world.types import Object, TypeHierarchy
 
@@ -25,6 +28,7 @@ class Domain:
         types: hierarchy of object types.
         objects: all objects; a scene may hold a part of them.
         skills: the black-box skills.
+        declared_scenes: those of the file, in its order; empty for one with all objects.
         failures_change_nothing: whether a failed skill is known to leave the state as it
             was (DESIGN.md D11).
     """
@@ -35,6 +39,7 @@ class Domain:
     types: TypeHierarchy
     objects: tuple[Object, ...]
     skills: tuple[Skill, ...]
+    declared_scenes: tuple[Scene, ...] = ()
     failures_change_nothing: bool = False
 
     @cached_property
@@ -52,18 +57,38 @@ class Domain:
         """All skill instances over all objects."""
         return ground_skills(self.skills, self.objects)
 
-    def scene_objects(self, scene: tuple[str, ...]) -> tuple[Object, ...]:
-        """The objects of a scene, in the domain's order."""
-        return tuple(o for o in self.objects if o.name in scene)
+    @cached_property
+    def scenes(self) -> Mapping[str, Scene]:
+        """Scenes by their names; at least one (docs/semantics.md D19)."""
+        scenes = self.declared_scenes or (Scene(DEFAULT_SCENE, self.objects),)
+        return MappingProxyType({scene.name: scene for scene in scenes})
 
-    def check_instance(self, instance: SkillInstance) -> None:
-        """Raise ``UnknownNameError`` or ``ConfigurationError`` if there is no such instance."""
+    def scene(self, name: str | None = None) -> Scene:
+        """The scene of a name; None for the first one.
+
+        Raises:
+            UnknownNameError: if there is no such scene.
+        """
+        if name is None:
+            return next(iter(self.scenes.values()))
+        if name not in self.scenes:
+            raise UnknownNameError("scene", name, self.scenes)
+        return self.scenes[name]
+
+    def check_instance(self, instance: SkillInstance, scene: Scene | None = None) -> None:
+        """Raise ``UnknownNameError`` or ``ConfigurationError`` if there is no such instance.
+
+        Args:
+            instance: what is to be executed.
+            scene: what is present; None for all objects.
+        """
         skill = self.skill_by_name.get(instance.skill)
         if skill is None:
             raise UnknownNameError("skill", instance.skill, self.skill_by_name)
+        present = self.object_by_name if scene is None else scene.names
         for name in instance.arguments:
-            if name not in self.object_by_name:
-                raise UnknownNameError("object", name, self.object_by_name)
+            if name not in present:
+                raise UnknownNameError("object", name, present)
         if not skill.accepts([self.object_by_name[name] for name in instance.arguments]):
             expected = ", ".join(p.type for p in skill.parameters)
             raise ConfigurationError(
@@ -107,6 +132,7 @@ class _DomainFile(BaseModel):
     types: dict[str, _TypeEntry]
     objects: dict[str, _ObjectEntry]
     skills: dict[str, _SkillEntry]
+    scenes: dict[str, list[str]] = Field(default_factory=dict)
 
 
 def load_domain(path: Path) -> Domain:
@@ -118,13 +144,15 @@ def load_domain(path: Path) -> Domain:
     document = YamlDocument.read(path)
     entries = document.validate(_DomainFile)
     hierarchy = _build_types(document, entries)
+    objects = _build_objects(document, entries, hierarchy)
     return Domain(
         name=entries.name,
         agent=entries.agent.strip(),
         description=entries.description.strip(),
         types=hierarchy,
-        objects=_build_objects(document, entries, hierarchy),
+        objects=objects,
         skills=_build_skills(document, entries),
+        declared_scenes=_build_scenes(document, entries, objects),
         failures_change_nothing=entries.failures_change_nothing,
     )
 
@@ -166,6 +194,22 @@ def _build_skills(document: YamlDocument, entries: _DomainFile) -> tuple[Skill, 
             raise ConfigurationError(f"{where}: two parameters of '{name}' have the same name")
         skills.append(Skill(name, parameters, entry.description))
     return tuple(skills)
+
+
+def _build_scenes(
+    document: YamlDocument, entries: _DomainFile, objects: tuple[Object, ...]
+) -> tuple[Scene, ...]:
+    for scene, names in entries.scenes.items():
+        where = document.place(("scenes", scene))
+        if not names or len(set(names)) < len(names):
+            raise ConfigurationError(
+                f"{where}: expected scene '{scene}' to name at least one object, and each once"
+            )
+        for number, name in enumerate(names):
+            if name not in entries.objects:
+                where = document.place(("scenes", scene, number))
+                raise UnknownNameError(f"object in scene '{scene}'", name, entries.objects, where)
+    return tuple(Scene.of(scene, names, objects) for scene, names in entries.scenes.items())
 
 
 def _check_type(

@@ -8,6 +8,7 @@ from typing import Any, Protocol, runtime_checkable
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Outcome
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -24,12 +25,20 @@ class Environment(Protocol):
         ...
 
     @property
-    def scene(self) -> tuple[str, ...]:
-        """Names of the objects that are present now, in the domain's order."""
+    def scene(self) -> Scene:
+        """The objects that are present now."""
         ...
 
-    def reset(self, *, seed: int) -> Observation:
-        """Bring the world to a start; the same seed gives the same start."""
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        """Bring the world to a start; the same seed and scene give the same start.
+
+        Args:
+            seed: chooses what may differ between starts.
+            scene: name of one of the domain's scenes; None for the environment's choice.
+
+        Raises:
+            UnknownNameError: if there is no such scene.
+        """
         ...
 
     def execute(self, instance: SkillInstance) -> Outcome:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -45,11 +46,11 @@ class Episode:
     """A sequence of transitions after one reset of the environment.
 
     Attributes:
-        scene: names of the objects that were present, sorted.
+        scene: the objects that were present.
         seed: the seed given to ``reset``.
         transitions: in the order of execution; each starts where the one before ended.
     """
 
-    scene: tuple[str, ...]
+    scene: Scene
     seed: int
     transitions: tuple[Transition, ...]

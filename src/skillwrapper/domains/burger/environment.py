@@ -16,6 +16,7 @@ from skillwrapper.errors import RobotError
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.episode import Outcome
 from skillwrapper.world.observation import Observation, Picture, encode_png
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -41,12 +42,17 @@ class BurgerEnvironment:
         return self._domain
 
     @property
-    def scene(self) -> tuple[str, ...]:
-        """Names of the objects that are present: always all of them."""
-        return tuple(o.name for o in self._domain.objects)
+    def scene(self) -> Scene:
+        """The one scene of the kitchen."""
+        return self._domain.scene()
 
-    def reset(self, *, seed: int) -> Observation:
-        """All items on their tables and the hand empty, in the layout of the seed."""
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        """All items on their tables and the hand empty, in the layout of the seed.
+
+        Raises:
+            UnknownNameError: if there is no such scene.
+        """
+        self._domain.scene(scene)
         return self.set_state(BurgerState(), seed=seed)
 
     def execute(self, instance: SkillInstance) -> Outcome:

@@ -18,7 +18,8 @@ from skillwrapper.evaluation.exact.verification import verify_labels
 from skillwrapper.evaluation.methods.method import Bench, Cell, Method, Prepared
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.problems.results import ProblemResult
-from skillwrapper.files.writing import append_line, read_lines, write_json
+from skillwrapper.files.json_documents import read_lines
+from skillwrapper.files.writing import append_line, write_json
 from skillwrapper.grounding import AtomSpace
 
 RESULT = "result.json"

@@ -14,7 +14,7 @@ from skillwrapper.evaluation.exact.learning_curves import CurvePoint, area_under
 from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Prepared
 from skillwrapper.exploration.coverage import PairCounts
-from skillwrapper.learning.operators import learn_operators
+from skillwrapper.learning.operators import cluster_operators
 from skillwrapper.symbols import Operator, Predicate
 from skillwrapper.transitions.dataset import Dataset, Reading, TruthSource
 from skillwrapper.world.domain import Domain
@@ -77,7 +77,7 @@ def share_changing(
             dataset.add(replace(episode, transitions=(transition,)))
             skill = domain.skill_by_name[transition.instance.skill]
             data = reading.skill_data(skill.name, predicates)
-            found = learn_operators(domain, skill, data, predicates, absences=prepared.absences)
+            found = cluster_operators(domain, skill, data, predicates, absences=prepared.absences)
             learned = tuple(o.operator for o in found)
             changes += learned != known.get(skill.name, ())
             known[skill.name] = learned

@@ -25,7 +25,8 @@ from skillwrapper.evaluation.benchmark.origins import Origin
 from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.methods.method import Cell
 from skillwrapper.evaluation.problems.problems import ProblemSet, read_problems
-from skillwrapper.files.writing import append_line, read_lines, write_atomically
+from skillwrapper.files.json_documents import read_lines
+from skillwrapper.files.writing import append_line, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.runs.provenance import provenance
 from skillwrapper.world.environment import EnumerableEnvironment
@@ -93,9 +94,7 @@ class ExperimentFolder:
         Raises:
             ConfigurationError: if the file was damaged.
         """
-        document = YamlDocument.read(self.path / _EXPERIMENT)
-        inner = document.data.get("experiment") if isinstance(document.data, dict) else None
-        return YamlDocument(document.path, inner, None).validate(Experiment)
+        return YamlDocument.read(self.path / _EXPERIMENT).part("experiment").validate(Experiment)
 
     def note_run(self, command: str) -> None:
         """Note that a command runs what is not finished yet, and with which code."""

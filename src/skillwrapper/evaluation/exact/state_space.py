@@ -37,7 +37,7 @@ class StateSpace:
         """Run every skill instance in every state that the standard start leads to."""
         domain = environment.domain
         states = tuple(environment.reachable_states())
-        instances = ground_skills(domain.skills, domain.scene_objects(environment.scene))
+        instances = ground_skills(domain.skills, environment.scene.objects)
         index = {state: number for number, state in enumerate(states)}
         success = np.zeros((len(states), len(instances)), dtype=np.bool_)
         following = np.repeat(np.arange(len(states))[:, np.newaxis], len(instances), axis=1)

@@ -147,7 +147,7 @@ def verify_labels(
         labels: the abstract state of every state (states, atoms).
     """
     started = time.monotonic()
-    objects = environment.domain.scene_objects(environment.scene)
+    objects = environment.scene.objects
     ground = GroundModel.of(model, objects)
     if labels.shape != (len(space.states), len(ground.space.atoms)):
         raise InternalError(

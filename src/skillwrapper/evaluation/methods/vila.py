@@ -84,7 +84,7 @@ class VilaSolver:
         seen = self.environment.set_state(start, seed=problem.layout)
         picture = self.environment.observe_state(goal)
         domain = self.environment.domain
-        objects = domain.scene_objects(self.environment.scene)
+        objects = self.environment.scene.objects
         history: tuple[tuple[SkillInstance, bool], ...] = ()
         # Once more than actions are allowed: the last one may have been the last that was needed.
         for _ in range(self.actions + 1):

@@ -84,7 +84,7 @@ class ModelSolver:
     def _ground(self, problem: Problem) -> GroundModel:
         state = self.environment.state_from_data(problem.initial)
         self.environment.set_state(state, seed=problem.layout)
-        objects = self.environment.domain.scene_objects(self.environment.scene)
+        objects = self.environment.scene.objects
         return GroundModel.of(self.model, objects)
 
     def _read(self, problem: Problem, ground: GroundModel) -> _Read:

@@ -1,4 +1,4 @@
-"""Remedies for operators that predict more than one change (DESIGN.md D5), before invention.
+"""Operators that predict more than one change are mended before anything is invented (D5).
 
 In this order: split a cluster by the types of its objects; add literals between context objects,
 which tells bindings apart; conditional effects where a change ranges over a set. The first two are
@@ -18,7 +18,7 @@ from skillwrapper.learning.conditional_effects import (
     cluster_by_core,
     learn_with_conditional_effects,
 )
-from skillwrapper.learning.operators import LearnedOperator, learn_operators, operator_of
+from skillwrapper.learning.operators import LearnedOperator, cluster_operators, operator_of
 from skillwrapper.learning.predictions import Predictor, TablePrediction
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.tables import Group, SkillData
@@ -26,7 +26,7 @@ from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
 
-def learn_deterministic_operators(
+def make_deterministic(
     domain: Domain,
     skill: Skill,
     data: SkillData,
@@ -35,7 +35,7 @@ def learn_deterministic_operators(
     absences: bool = True,
 ) -> tuple[tuple[LearnedOperator, ...], tuple[TablePrediction, ...]]:
     """The operators of a skill, mended as far as the vocabulary allows, and what they predict."""
-    plain = learn_operators(domain, skill, data, predicates, absences=absences)
+    plain = cluster_operators(domain, skill, data, predicates, absences=absences)
     predictor = Predictor(data)
     chosen: list[LearnedOperator] = []
     for learned in plain:

@@ -1,0 +1,106 @@
+"""Damaged files are told in one sentence, with the file and the line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from pydantic import BaseModel, ConfigDict, Field
+
+from skillwrapper.errors import ConfigurationError, FileError
+from skillwrapper.files.json_documents import read_json, read_lines, read_records
+from skillwrapper.files.yaml_documents import YamlDocument
+
+
+class Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+    name: str
+    count: int = Field(default=1, ge=1)
+
+
+class Whole(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+    parts: tuple[Part, ...]
+
+
+GOOD = '{\n "parts": [\n  {\n   "name": "a",\n   "count": 2\n  }\n ]\n}\n'
+
+
+def test_json_that_fits(tmp_path: Path) -> None:
+    path = tmp_path / "whole.json"
+    path.write_text(GOOD)
+    assert read_json(path, Whole).parts[0].count == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", r"whole\.json:1: expected JSON"),
+        ('{\n "parts": [\n', r"whole\.json:\d: expected JSON"),
+        ("[" * 100_000, r"whole\.json:1: expected JSON"),
+        ("[]", r"whole\.json:1: 'the file': expected keys and values"),
+        (GOOD.replace('"count"', '"cuont"'), r":5: unknown key 'parts.0.cuont'; did you mean"),
+        (GOOD.replace("2", '"2"'), r":5: 'parts.0.count': expected a whole number, got '2'"),
+        (GOOD.replace("2", "0"), r":5: 'parts.0.count': expected greater than or equal to 1"),
+        (GOOD.replace('"name"', '"count"'), r":3: expected a value for 'parts.0.name', got none"),
+    ],
+)
+def test_json_that_does_not(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "whole.json"
+    path.write_text(text)
+    with pytest.raises(FileError, match=message):
+        read_json(path, Whole)
+
+
+def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:
+    (tmp_path / "binary").write_bytes(b"\xff\xfe")
+    for name, message in (("nothing", "No such file"), ("binary", "UTF-8"), (".", "directory")):
+        with pytest.raises(FileError, match=message):
+            read_json(tmp_path / name, Whole)
+
+
+def test_lines_that_do_not_fit_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "parts.jsonl"
+    path.write_text('{"name": "a"}\n{"name"\n{"name": "c"}\n')
+    for read in (read_lines, lambda path: read_records(path, Part)):
+        with pytest.raises(FileError, match=r"parts\.jsonl:2: expected a line of JSON"):
+            read(path)
+    path.write_text('{"name": "a"}\n{"name": 3}\n')
+    with pytest.raises(FileError, match=r"parts\.jsonl:2: 'name': expected text, got 3"):
+        read_records(path, Part)
+    path.write_text("3\n")
+    with pytest.raises(FileError, match=r"parts\.jsonl:1: expected an object of JSON"):
+        read_lines(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a: 1\nb: 2\na: 3\n", r":3: expected valid YAML \(the key 'a' is given twice\)"),
+        ("a:\n  b: 1\n  b: 2\n", r":3: .*'b' is given twice"),
+        ("a: !!python/object/apply:os.getcwd []\n", r":1: expected valid YAML"),
+        ("a: !thing 3\n", r":1: expected valid YAML"),
+        ("? [a, b]\n: 1\n? {c: 1}\n: 2\n", r":1: .*expected text as a key"),
+        ("[" * 5000, "nesting"),
+        ("a: [1\n", r":2: expected valid YAML"),
+    ],
+)
+def test_yaml_that_says_two_things_or_none(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "file.yaml"
+    path.write_text(text)
+    with pytest.raises(ConfigurationError, match=message):
+        YamlDocument.read(path)
+
+
+def test_dates_stay_text(tmp_path: Path) -> None:
+    """Also those that are none, which YAML's own reader ends with a traceback."""
+    path = tmp_path / "file.yaml"
+    path.write_text("a: 2001-99-99\nb: 2001-01-01\n")
+    assert YamlDocument.read(path).data == {"a": "2001-99-99", "b": "2001-01-01"}
+
+
+def test_a_part_knows_its_lines(tmp_path: Path) -> None:
+    path = tmp_path / "file.yaml"
+    path.write_text("other: 1\npart:\n  name: a\n  count: none\n")
+    with pytest.raises(ConfigurationError, match=r"file\.yaml:4: 'count': expected a whole number"):
+        YamlDocument.read(path).part("part").validate(Part)
