@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import random
+import re
 import tempfile
+import time
 import warnings
 from collections import deque
 from dataclasses import replace
@@ -185,16 +187,6 @@ def test_same_skills_count_once(needs: str) -> None:
     assert len(result.plans) == 10
 
 
-def test_wrong_plans_of_a_planner_are_refused(tmp_path: Path) -> None:
-    plan = '{"cost": 2, "actions": ["action-0 ", "finish "]}'
-    program = tmp_path / "planner"
-    program.write_text(f"#!/bin/sh\necho '{{\"plans\": [{plan}]}}' > plans.json\n")
-    program.chmod(0o755)
-    result = Planner(engine=KStar(program)).solve(problem(STANDARD_GOALS[0]))
-    assert (result.status, result.plans) == (PlanningStatus.ERROR, ())
-    assert "1 of its plans do not reach the goal" in result.log
-
-
 def many_buns(number: int) -> PlanningProblem:
     """Buns side by side, to be stacked in an order that leaves too much choice."""
     model = expert_model()
@@ -211,40 +203,111 @@ def test_out_of_time_is_not_unsolvable(monkeypatch: pytest.MonkeyPatch, tmp_path
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     result = Planner(PlannerSettings(time_limit=0.5)).solve(many_buns(10))
     assert (result.status, result.plans) == (PlanningStatus.TIMEOUT, ())
-    assert result.seconds < 5
+    assert result.seconds < 1.5
     assert not list(tmp_path.iterdir())
 
 
 def test_planner_that_hangs_is_killed(tmp_path: Path) -> None:
-    program = tmp_path / "hangs"
-    program.write_text("#!/bin/sh\nsleep 60\n", encoding="utf-8")
-    program.chmod(0o755)
-    outcome = KStar(program).search(problem(STANDARD_GOALS[0]), 1, 0.2)
+    started = time.monotonic()
+    outcome = fake_planner(tmp_path, "sleep 60 & sleep 60").search(
+        problem(STANDARD_GOALS[0]), 1, 0.2
+    )
+    assert time.monotonic() - started < 1.2
     assert outcome.status is PlanningStatus.TIMEOUT
+
+
+def fake_planner(folder: Path, script: str, shebang: str = "#!/bin/sh") -> KStar:
+    program = folder / "planner"
+    program.write_text(f"{shebang}\n{script}\n", encoding="utf-8")
+    program.chmod(0o755)
+    return KStar(program)
 
 
 @pytest.mark.parametrize(
     ("script", "expected"),
     [
-        ("echo broken; exit 32", PlanningStatus.ERROR),
-        ("kill -SEGV $$", PlanningStatus.ERROR),
         ("exit 12", PlanningStatus.UNSOLVABLE),
+        ("sleep 0.2; exit 11", PlanningStatus.UNSOLVABLE),
         ("echo 'search::time limit reached'; exit 12", PlanningStatus.TIMEOUT),
         ("sleep 0.5; exit 12", PlanningStatus.TIMEOUT),
-        ("echo '{\"plans\": [' > plans.json; exit 0", PlanningStatus.TIMEOUT),
+        ("echo '{\"plans\": [' > plans.json; sleep 60", PlanningStatus.TIMEOUT),
     ],
 )
 def test_what_an_end_of_the_planner_means(
     tmp_path: Path, script: str, expected: PlanningStatus
 ) -> None:
-    program = tmp_path / "planner"
-    program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
-    program.chmod(0o755)
     seconds = 0.4 if "sleep" in script else 30.0
-    result = Planner(PlannerSettings(time_limit=seconds), KStar(program)).solve(
-        problem(STANDARD_GOALS[0])
-    )
+    planner = Planner(PlannerSettings(time_limit=seconds), fake_planner(tmp_path, script))
+    result = planner.solve(problem(STANDARD_GOALS[0]))
     assert result.status is expected
+    assert result.seconds < 30.0
+    assert result.cause == ""
+
+
+def plans(text: str) -> str:
+    return f"cat > plans.json << 'EOF'\n{text}\nEOF"
+
+
+@pytest.mark.parametrize(
+    ("script", "cause"),
+    [
+        ("echo broken; exit 32", "met a critical error"),
+        ("exit 22", "ran out of memory"),
+        ("exit 77", "ended with the exit code 77"),
+        ("kill -SEGV $$", "was ended by SIGSEGV"),
+        ("kill -KILL $$", "was ended by SIGKILL, perhaps for want of memory"),
+        ("exit 0", "as if it had found plans, and wrote none"),
+        ("cat", "as if it had found plans, and wrote none"),
+        ("mkdir plans.json", "can be read: plans.json is no file"),
+        ("mkfifo plans.json", "can be read: plans.json is no file"),
+        ("ln -s /dev/zero plans.json", "can be read: plans.json is no file"),
+        ("head -c 100000 /dev/urandom > plans.json", "no plans that can be read"),
+        (plans(""), "no plans that can be read"),
+        (plans('{"plans": ['), "no plans that can be read"),
+        (plans('{"plans": [') + "; exit 12", "no plans that can be read"),
+        (plans("[" * 100_000), "no plans that can be read"),
+        (plans("[]"), "no plans that can be read"),
+        (plans("null"), "no plans that can be read"),
+        (plans('{"plans": null}'), "valid array, at plans"),
+        (plans('{"plans": [{"cost": 1}]}'), "Field required, at plans.0.actions"),
+        (plans('{"plans": [{"cost": NaN, "actions": ["finish"]}]}'), "finite number"),
+        (plans('{"plans": [{"cost": 1, "actions": [7]}]}'), "valid string, at plans.0.actions.0"),
+        (plans('{"plans": [{"cost": 1, "actions": []}]}'), "to end with finish, got ''"),
+        (plans('{"plans": [{"cost": 1, "actions": ["action-0"]}]}'), "to end with finish"),
+        (plans('{"plans": [{"cost": 1, "actions": ["jump", "finish"]}]}'), "got 'jump'"),
+        (plans('{"plans": [{"cost": 1, "actions": ["action--1", "finish"]}]}'), "got 'action--1'"),
+        (plans('{"plans": [{"cost": 1, "actions": ["action-²", "finish"]}]}'), "got 'action-²'"),
+        (plans('{"plans": [{"cost": 1, "actions": ["action-99999", "finish"]}]}'), "got 99999"),
+        (plans('{"plans": [{"cost": 1, "actions": ["finish"]}]}'), "do not reach the goal"),
+    ],
+)
+def test_a_broken_planner_is_an_error_with_its_cause(
+    tmp_path: Path, script: str, cause: str
+) -> None:
+    """From a fault found by use: these raised ten kinds of exception."""
+    result = Planner(engine=fake_planner(tmp_path, script)).solve(problem(STANDARD_GOALS[0]))
+    assert (result.status, result.plans) == (PlanningStatus.ERROR, ())
+    assert re.search(cause, result.cause), result.log
+    assert result.cause.startswith("the planner ")
+
+
+def test_planners_that_cannot_be_started(tmp_path: Path) -> None:
+    no_program = fake_planner(tmp_path, "", shebang="#!/nowhere/python")
+    (tmp_path / "garbage").write_bytes(b"\x7fELF nonsense")
+    (tmp_path / "garbage").chmod(0o755)
+    (tmp_path / "text").write_text("not executable", encoding="utf-8")
+    names = ("missing", "garbage", "text", ".")
+    for engine in [no_program, *(KStar(tmp_path / name) for name in names)]:
+        result = Planner(engine=engine).solve(problem(STANDARD_GOALS[0]))
+        assert result.status is PlanningStatus.ERROR
+        assert "cannot be run" in result.cause
+
+
+def test_no_room_for_temporary_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    result = Planner().solve(problem(STANDARD_GOALS[0]))
+    assert result.status is PlanningStatus.ERROR
+    assert "cannot be run" in result.cause
 
 
 def test_goal_about_what_is_not_in_the_scene() -> None:

@@ -36,7 +36,7 @@ def parse_goal(text: str, space: AtomSpace) -> Goal:
 
 
 def goal_from_state(space: AtomSpace, state: Labels, *, positive_only: bool = False) -> Goal:
-    """What is known of an abstract state (DESIGN.md D12).
+    """What is known of an abstract state (docs/semantics.md, D12).
 
     Args:
         space: the ground atoms.

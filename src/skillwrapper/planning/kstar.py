@@ -7,15 +7,17 @@ are ground already (``sas.py``), so only the search is run, with the options of 
 from __future__ import annotations
 
 import importlib.util
-import json
-import tempfile
+import signal
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from pydantic import BaseModel, FiniteFloat, ValidationError
+
 from skillwrapper.errors import MissingDependencyError
-from skillwrapper.planning.problem import FINISH, PlanningProblem, action_number
-from skillwrapper.planning.process import Finished, run_to_end
+from skillwrapper.planning.problem import FINISH, PlanningProblem, action_number, is_finish
+from skillwrapper.planning.process import Finished, Scratch
 from skillwrapper.planning.result import PlanningStatus
 from skillwrapper.planning.sas import print_sas
 
@@ -24,11 +26,36 @@ _SYMMETRIES = (
     "stabilize_initial_state=false,keep_operator_symmetries=true)"
 )
 _PLANS_FILE = "plans.json"
-_FOUND, _PROVEN_UNSOLVABLE, _NONE_FOUND = 0, 11, 12
-_GRACE = 1.0
+_WITH_PLANS = (0, 1, 2, 3)
+_WITHOUT_PLANS = (_PROVEN_UNSOLVABLE, _NONE_FOUND) = (11, 12)
+_MEANINGS = {
+    22: "ran out of memory",
+    23: "ran out of time",
+    24: "ran out of memory and time",
+    32: "met a critical error",
+    33: "did not understand its input",
+    34: "does not support what it was given",
+}
+"""Fast Downward's exit codes, after which no plans can be expected."""
+_GRACE = 0.5
 """Seconds between the time limit that the planner keeps itself and the one we enforce."""
 _WELL_INSIDE = 0.9
-"""Share of the time limit up to which "no plan found" counts as a proof (DESIGN.md D12)."""
+"""Share of the time up to which "no plan found" is a proof (docs/semantics.md, D12)."""
+
+
+Plans = tuple[tuple[int, ...], ...]
+"""Plans as positions in a problem's actions."""
+
+
+class _PlanEntry(BaseModel):
+    cost: FiniteFloat
+    actions: list[str]
+
+
+class _PlansFile(BaseModel):
+    """The layout of the file that the planner writes."""
+
+    plans: list[_PlanEntry]
 
 
 @dataclass(frozen=True)
@@ -37,12 +64,12 @@ class SearchOutcome:
 
     Attributes:
         status: how it ended.
-        plans: positions in the problem's actions, the cheapest plan first.
-        log: what the planner printed.
+        plans: the cheapest first; none unless solved.
+        log: why there are no plans, in a first line of its own, and what the planner printed.
     """
 
     status: PlanningStatus
-    plans: tuple[tuple[int, ...], ...]
+    plans: Plans
     log: str
 
 
@@ -72,25 +99,37 @@ class KStar:
         raise MissingDependencyError("the planner K*", "pip install kstar-planner")
 
     def search(self, problem: PlanningProblem, plans: int, seconds: float) -> SearchOutcome:
-        """The cheapest plans.
+        """The cheapest plans; whatever goes wrong with the planner is an outcome, too.
 
         Args:
             problem: the problem; the goal must not hold at the start.
             plans: how many plans at most.
-            seconds: how long to search at most.
+            seconds: how long to search at most, the writing of the problem included.
         """
-        with tempfile.TemporaryDirectory(prefix="skillwrapper-kstar-") as name:
-            folder, started = Path(name), time.monotonic()
-            finished = run_to_end(
-                self.command(problem, plans, seconds),
-                folder=folder,
-                text=print_sas(problem),
-                seconds=seconds + _GRACE,
-            )
-            elapsed = time.monotonic() - started
-            found = _read_plans(folder / _PLANS_FILE)
-        status = _status(finished, bool(found), elapsed / seconds)
-        return SearchOutcome(status, found, f"{finished.output}\nexit code {finished.code}")
+        deadline = time.monotonic() + seconds
+        text = print_sas(problem)
+        remaining = deadline - time.monotonic()
+        if remaining <= 0:
+            return SearchOutcome(PlanningStatus.TIMEOUT, (), "no time was left for the search")
+        try:
+            with Scratch.made("skillwrapper-kstar-") as scratch:
+                started = time.monotonic()
+                finished = scratch.run(
+                    self.command(problem, plans, remaining), text=text, seconds=remaining + _GRACE
+                )
+                share_of_time = (time.monotonic() - started) / remaining
+                found = _read_plans(scratch.folder / _PLANS_FILE, len(problem.actions))
+        except OSError as error:
+            return self._broken(f"cannot be run: {error}")
+        said = f"{finished.output}\nexit code {finished.code}"
+        cause = _breakdown(finished, found)
+        if cause:
+            return self._broken(cause, said)
+        return SearchOutcome(_status(finished, found, share_of_time), found.plans, said)
+
+    def _broken(self, cause: str, said: str = "") -> SearchOutcome:
+        log = f"the planner {self.program} {cause}\n{said}".strip()
+        return SearchOutcome(PlanningStatus.ERROR, (), log)
 
     def command(self, problem: PlanningProblem, plans: int, seconds: float) -> tuple[str, ...]:
         """The command line, as ``plan_topk`` would have it."""
@@ -98,7 +137,8 @@ class KStar:
         conditional = any(action.conditional for action in problem.actions)
         heuristic = "hmax" if conditional else "lmcut"
         search = (
-            f"kstar({heuristic}(transform=undo_to_origin()), k={plans}, max_time={seconds}, "
+            f"kstar({heuristic}(transform=undo_to_origin()), k={plans}, "
+            f"max_time={max(seconds, 0.001):.3f}, "
             f"find_unordered_plans=false, dump_plan_files=false, "
             f"json_file_to_dump={_PLANS_FILE}{'' if conditional else ', symmetries=sym'})"
         )
@@ -107,27 +147,73 @@ class KStar:
         return (str(self.program), *symmetries, "--search", search, *plan_file)
 
 
-def _read_plans(path: Path) -> tuple[tuple[int, ...], ...]:
-    """The plans without their last action; none if the planner wrote no complete file."""
+@dataclass(frozen=True)
+class _Found:
+    """What stands in the file of plans, and what is wrong with it."""
+
+    plans: Plans = ()
+    fault: str = ""
+
+
+def _read_plans(path: Path, actions: int) -> _Found:
+    """The plans without their last action, the cheapest first; no file, no plans."""
+    if not path.is_file():
+        return _Found(fault=f"{path.name} is no file" if path.exists() else "")
     try:
-        entries = json.loads(path.read_text(encoding="utf-8"))["plans"]
-    except (OSError, ValueError):
-        return ()
-    entries.sort(key=lambda entry: entry["cost"])
-    return tuple(
-        tuple(action_number(name) for name in map(str.strip, entry["actions"]) if name != FINISH)
-        for entry in entries
+        entries = _PlansFile.model_validate_json(path.read_bytes()).plans
+        entries.sort(key=lambda entry: entry.cost)
+        return _Found(tuple(_action_numbers(entry.actions, actions) for entry in entries))
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        return _Found(fault=f"{first['msg']}{f', at {place}' if place else ''}")
+    except ValueError as error:
+        return _Found(fault=str(error))
+
+
+def _action_numbers(names: Sequence[str], actions: int) -> tuple[int, ...]:
+    *steps, last = [name.strip() for name in names] or [""]
+    if not is_finish(last):
+        raise ValueError(f"expected a plan to end with {FINISH}, got '{last}'")
+    numbers = tuple(map(action_number, steps))
+    if numbers and max(numbers) >= actions:
+        raise ValueError(f"expected the actions 0 to {actions - 1}, got {max(numbers)}")
+    return numbers
+
+
+def _breakdown(finished: Finished, found: _Found) -> str:
+    """How the planner broke down; empty if it did not."""
+    if finished.timed_out:
+        return ""
+    code = finished.code
+    causes = (
+        (finished.wrote_too_much, "was stopped because it filled the disk"),
+        (code < 0, f"was ended by {_signal_name(-code)}"),
+        (
+            code not in (*_WITH_PLANS, *_WITHOUT_PLANS),
+            _MEANINGS.get(code, f"ended with the exit code {code}"),
+        ),
+        (found.fault, f"wrote no plans that can be read: {found.fault}"),
+        (
+            not found.plans and code in _WITH_PLANS,
+            "ended as if it had found plans, and wrote none",
+        ),
     )
+    return next((cause for applies, cause in causes if applies), "")
 
 
-def _status(finished: Finished, found: bool, share_of_time: float) -> PlanningStatus:
-    if found:
+def _signal_name(number: int) -> str:
+    try:
+        name = signal.Signals(number).name
+    except ValueError:
+        name = f"the signal {number}"
+    return f"{name}, perhaps for want of memory" if number == signal.SIGKILL else name
+
+
+def _status(finished: Finished, found: _Found, share_of_time: float) -> PlanningStatus:
+    """How a search ended that did not break down."""
+    if found.plans:
         return PlanningStatus.SOLVED
     ended_by_itself = not finished.timed_out and "search::time limit" not in finished.output
-    if finished.code == _PROVEN_UNSOLVABLE and ended_by_itself:
-        return PlanningStatus.UNSOLVABLE
-    if finished.code == _NONE_FOUND and ended_by_itself and share_of_time <= _WELL_INSIDE:
-        return PlanningStatus.UNSOLVABLE
-    if finished.timed_out or finished.code in {_FOUND, _NONE_FOUND}:
-        return PlanningStatus.TIMEOUT
-    return PlanningStatus.ERROR
+    proven = finished.code == _PROVEN_UNSOLVABLE or share_of_time <= _WELL_INSIDE
+    return PlanningStatus.UNSOLVABLE if ended_by_itself and proven else PlanningStatus.TIMEOUT

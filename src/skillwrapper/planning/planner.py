@@ -112,9 +112,10 @@ class Planner:
 def _checked(problem: PlanningProblem, outcome: SearchOutcome) -> SearchOutcome:
     """Without the plans that are none: a planner is checked, not believed."""
     good = tuple(plan for plan in outcome.plans if problem.is_plan(plan))
-    if len(good) == len(outcome.plans):
+    bad = len(outcome.plans) - len(good)
+    if not bad:
         return outcome
-    log = f"{outcome.log}\n{len(outcome.plans) - len(good)} of its plans do not reach the goal"
+    log = f"the planner is wrong: {bad} of its plans do not reach the goal\n{outcome.log}"
     return SearchOutcome(PlanningStatus.SOLVED if good else PlanningStatus.ERROR, good, log)
 
 

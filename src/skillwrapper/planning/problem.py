@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -104,16 +105,32 @@ def _different(actions: Iterable[GroundOperator]) -> tuple[GroundOperator, ...]:
 
 
 FINISH = "finish"
-"""The last action of every plan: it needs the goal and lets nothing follow (DESIGN.md D12)."""
+"""Begins the names of the last actions: one for each alternative of the goal.
 
-_PREFIX = "action-"
+It needs the goal and lets nothing follow (docs/semantics.md, D12).
+"""
+
+_ACTION, _NUMBERED = "action-", re.compile(r"action-([0-9]{1,9})")
 
 
 def action_name(number: int) -> str:
     """The name of an action in planner files: its position in the problem's actions."""
-    return f"{_PREFIX}{number}"
+    return f"{_ACTION}{number}"
 
 
 def action_number(name: str) -> int:
-    """The position of an action that a planner names."""
-    return int(name.removeprefix(_PREFIX))
+    """The position of an action that a planner names; ``ValueError`` if it is none of ours."""
+    found = _NUMBERED.fullmatch(name)
+    if found is None:
+        raise ValueError(f"expected an action such as {action_name(0)}, got '{name}'")
+    return int(found[1])
+
+
+def finish_name(number: int) -> str:
+    """The name of the last action for one alternative of the goal."""
+    return f"{FINISH}-{number}" if number else FINISH
+
+
+def is_finish(name: str) -> bool:
+    """Whether a planner names a last action."""
+    return name.startswith(FINISH)

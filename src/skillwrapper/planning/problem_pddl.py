@@ -1,6 +1,6 @@
 """Planning problems as PDDL files that any planner takes: no variables, no quantifiers.
 
-A last action stands for the goal, because K* refuses negative goals (DESIGN.md D12).
+A last action stands for the goal, because K* refuses negative goals (docs/semantics.md, D12).
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ class PlanningResult:
         status: how planning ended.
         plans: skill plans, all different, the shortest ones first; none unless solved.
         seconds: wall-clock time.
-        log: what the planner printed.
+        log: what the planner printed; after an error its first line says the cause.
         guessed: atoms that were unknown at the start and were taken as false.
 
     Raises:
@@ -51,6 +51,11 @@ class PlanningResult:
         if problem:
             raise InternalError(f"planning result: {problem}; please report it")
 
+    @property
+    def cause(self) -> str:
+        """Why the planner broke down, in one sentence; empty if it did not."""
+        return self.log.strip().splitlines()[0] if self.status is PlanningStatus.ERROR else ""
+
     def _contradiction(self) -> str | None:
         lengths = [len(plan) for plan in self.plans]
         if (self.status is PlanningStatus.SOLVED) != bool(self.plans):
@@ -61,6 +66,6 @@ class PlanningResult:
             return f"expected the shortest plans first, got the lengths {lengths}"
         if self.seconds < 0:
             return f"expected a time of at least 0 s, got {self.seconds} s"
-        if self.status is PlanningStatus.ERROR and not self.log:
+        if self.status is PlanningStatus.ERROR and not self.log.strip():
             return "expected a log with an error, got none"
         return None
