@@ -19,7 +19,7 @@ from kstar_planner import planners
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
-from skillwrapper.grounding.ground import AtomSpace, GroundModel, Labels
+from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.planning import Planner, PlanningProblem, goal_from_state, write_pddl
 
 PROBLEMS = 20

@@ -54,12 +54,8 @@ def successor(fit: Fit, state: str, skill: str) -> set[str]:
     model = GroundModel.of(fit.model, CANTEEN.objects)
     true = {a for a in model.space.atoms if str(a) in state}
     row = np.array([a in true for a in model.space.atoms], dtype=np.int8)
-    found = {
-        frozenset(map(str, model.space.true_atoms(g.apply(row[np.newaxis])[0])))
-        for g in model.applicable(instance(skill), row)
-    }
-    (following,) = found
-    return set(following)
+    (following,) = model.successors(row[np.newaxis], instance(skill))
+    return set(map(str, model.space.true_atoms(following)))
 
 
 def test_a_tray_takes_along_what_lies_on_it() -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 from notebook import Notebook, atom, make_domain
 
-from skillwrapper.grounding import GroundModel
+from skillwrapper.grounding import UNKNOWN, GroundModel
 from skillwrapper.symbols import Literal, Operator, Predicate, Variable
 
 ZOO = make_domain(
@@ -119,9 +120,11 @@ def test_different_parameters_are_different_objects() -> None:
     notebook = Notebook(ZOO, FED, IN)
     notebook.success("in(cow, c1)", "Feed(k, cow)", "in(cow, c2)")
     model = notebook.fit(FED, IN).model
-    for ground in GroundModel.of(model, ZOO.objects).operators.values():
-        for one in ground:
-            assert len(set(one.arguments)) == len(one.arguments)
+    ground = GroundModel.of(model, ZOO.objects)
+    unknown = np.full((1, len(ground.space.atoms)), UNKNOWN, dtype=np.int8)
+    bound = [objects for bindings in ground.bind_all(unknown) for objects in bindings.objects]
+    assert bound
+    assert all(len(set(objects)) == len(objects) for objects in bound)
 
 
 def test_one_operator_for_each_change() -> None:

@@ -22,7 +22,6 @@ from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.errors import MissingDependencyError, UnknownNameError
 from skillwrapper.grounding import GroundModel
-from skillwrapper.grounding.ground import GroundConditionalEffect
 from skillwrapper.planning import (
     KStar,
     Planner,
@@ -33,7 +32,7 @@ from skillwrapper.planning import (
     parse_goal,
     write_pddl,
 )
-from skillwrapper.symbols import AbstractModel, Literal
+from skillwrapper.symbols import AbstractModel, ConditionalEffect, Literal, Operator, Variable
 from skillwrapper.symbols.pddl import print_domain, print_problem
 from skillwrapper.symbols.predicates import Atom
 from skillwrapper.world import Object, SkillInstance
@@ -74,23 +73,30 @@ def test_costs_are_those_of_plan_topk(
     assert costs == costs_by_plan_topk(problem(goal), tmp_path)
 
 
+def cooking(operator: Operator) -> Operator:
+    """Cutting also cooks whatever is on the stove and not held; other operators stay."""
+    if operator.skill != "Cut":
+        return operator
+    stove, each = Variable("?stove", ("cooker",)), Variable("?each", ("cookable",))
+    on_stove = Literal(Atom("on_station", ("?each", "?stove")))
+    held = Literal(Atom("holding", ("?robot", "?each")), positive=False)
+    cooked = Literal(Atom("is_cooked", ("?each",)))
+    return replace(
+        operator,
+        parameters=(*operator.parameters, stove),
+        conditional_effects=frozenset({ConditionalEffect(each, (on_stove, held), cooked)}),
+    )
+
+
 def test_conditional_effects_as_by_plan_topk(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A kitchen without Cook, where cutting the lettuce also cooks a patty on the stove."""
     monkeypatch.chdir(tmp_path)
-    asked = problem("(and (is_cut lettuce) (is_cooked patty))")
-    cooks = GroundConditionalEffect(
-        space().columns([Atom("on_station", ("patty", "stove"))]),
-        space().columns([Atom("holding", ("robot", "patty"))]),
-        space().column[Atom("is_cooked", ("patty",))],
-        1,
-    )
-    actions = [a for a in asked.actions if a.operator.skill != "Cook"]
-    actions = [
-        replace(a, conditional=(cooks,)) if a.operator.skill == "Cut" else a for a in actions
-    ]
-    asked = replace(asked, actions=tuple(actions))
+    operators = [cooking(o) for o in expert_model().operators if o.skill != "Cook"]
+    model = GroundModel.from_operators(operators, space())
+    goal = parse_goal("(and (is_cut lettuce) (is_cooked patty))", space())
+    asked = PlanningProblem.of(model, labels(START), goal)
     costs = costs_by_us(asked)
     assert costs[0] == 6
     assert costs == costs_by_plan_topk(asked, tmp_path, search_heuristic="hmax()")

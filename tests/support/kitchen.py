@@ -18,7 +18,7 @@ import numpy as np
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.states import HAND, ITEMS, TABLE, BurgerState
 from skillwrapper.domains.burger.system_predicates import ROBOT
-from skillwrapper.grounding import TRUE, AtomSpace, GroundModel, Labels
+from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import AbstractModel, Predicate
@@ -270,12 +270,12 @@ def compare(model: AbstractModel) -> Score:
         success, following = _truth(instance)
         predicted = np.zeros(len(STATES), dtype=bool)
         right = made = 0
-        for operator in ground.operators.get(instance, ()):
-            applies = operator.applicability(states) == TRUE
-            predicted |= applies
-            both = np.flatnonzero(applies & success)
-            made += len(both)
-            right += int((operator.apply(states[both]) == states[following[both]]).all(1).sum())
+        for bindings in ground.bind(states, [instance]):
+            rows = bindings.sure.rows
+            predicted[rows] = True
+            agrees = (bindings.sure.successors() == states[following[rows]]).all(1)
+            made += int(success[rows].sum())
+            right += int(agrees[success[rows]].sum())
         found = [(predicted & success).sum(), predicted.sum(), success.sum(), right, made]
         counts[instance.skill] += np.array(found)
     total = sum(counts.values())

@@ -8,6 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from model_strategies import DOMAIN, models
+from scalar_grounding import ground_operator
 from unified_planning.engines.sequential_simulator import UPSequentialSimulator
 from unified_planning.io import PDDLReader
 
@@ -75,7 +76,7 @@ def compare(model: AbstractModel, data: st.DataObject, most: int) -> None:
     names = PlannerNames.of(model, DOMAIN.objects)
     simulator = simulate(model, ground, row)
     problem, state = simulator._problem, simulator.get_initial_state()
-    for operator in (o for found in ground.operators.values() for o in found):
+    for operator in (g for o in model.operators for g in ground_operator(o, ground.space)):
         action = problem.action(names.operators[operator.operator.name])
         arguments = [problem.object(names.objects[n]) for n in operator.arguments]
         applies = operator.applicability(row[np.newaxis])[0] == TRUE

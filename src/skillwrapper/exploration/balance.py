@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from skillwrapper.grounding import GroundModel, Labels
+from skillwrapper.grounding.simulation import simulate
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -28,10 +27,4 @@ def predicted_success_ratio(
     model: GroundModel, start: Labels, sequence: Sequence[SkillInstance]
 ) -> float:
     """Share of the skills that the model predicts to succeed; a failure changes nothing."""
-    state, successes = start, 0
-    for instance in sequence:
-        applicable = model.applicable(instance, state)
-        if applicable:
-            successes += 1
-            state = applicable[0].apply(state[np.newaxis])[0]
-    return successes / len(sequence)
+    return float(simulate(model, start, sequence).succeeds.mean())

@@ -142,8 +142,7 @@ def _preconditions(predictions: Sequence[TablePrediction]) -> Iterator[Mispredic
     for prediction in predictions:
         blamed: dict[int, LearnedOperator] = {}
         for learned, found in zip(prediction.operators, prediction.applications, strict=True):
-            rows = found.rows[found.applicability == TRUE]
-            for row in rows[~prediction.table.success[rows]]:
+            for row in found.sure[~prediction.table.success[found.sure]]:
                 blamed.setdefault(int(row), learned)
         yield from _blame(InconsistencyKind.PRECONDITION, prediction, blamed)
 

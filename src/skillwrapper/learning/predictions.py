@@ -3,65 +3,112 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, Labels
-from skillwrapper.learning.binding import BoundOperator, bind_operator
+from skillwrapper.grounding.abstract_states import AbstractStates
+from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.grounding.indexed_operators import IndexedOperator
+from skillwrapper.grounding.joins import find_bindings
 from skillwrapper.learning.operators import LearnedOperator
+from skillwrapper.symbols import Literal, Operator
 from skillwrapper.transitions.tables import SkillData, SkillTable
+
+
+def attempts_of(table: SkillTable, rows: NDArray[np.intp] | None = None) -> Attempts:
+    """The transitions of a table, or some rows of it, as attempts in the states before."""
+    rows = np.arange(len(table)) if rows is None else rows
+    return Attempts(AbstractStates(table.before), table.arguments, rows, table.which[rows])
+
+
+NEITHER = 2
+"""In place of a label where an atom did not change; no condition asks for it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Application:
-    """An operator applied to the transitions of a table, in every binding of its parameters.
+    """An operator applied to the transitions of a table, in every binding that may apply.
 
     Attributes:
-        bound: the operator's bindings.
-        binding: the binding of every pair of a binding and a transition of its skill instance.
-        rows: the row of every pair; a transition occurs as often as it has bindings.
-        applicability: TRUE, FALSE or UNKNOWN for every pair.
+        operator: the operator.
+        table: the transitions.
+        possible: rows, sorted, for which some binding may apply.
+        sure: rows, sorted, for which some binding surely applies.
+        accounted: rows, sorted, for which one of these makes the whole known change.
+        mispredicted: rows, sorted, of successes for which one of these predicts another change;
+            unknown and unexplained atoms do not count.
     """
 
-    bound: BoundOperator
-    binding: NDArray[np.intp]
-    rows: NDArray[np.intp]
-    applicability: Labels
+    operator: Operator
+    table: SkillTable
+    possible: NDArray[np.intp]
+    sure: NDArray[np.intp]
+    accounted: NDArray[np.intp]
+    mispredicted: NDArray[np.intp]
 
     @classmethod
-    def of(cls, learned: LearnedOperator, table: SkillTable) -> Application:
-        """Apply an operator to a table."""
-        bound = bind_operator(learned.operator, table)
-        binding, rows = bound.pairs()
-        return cls(bound, binding, rows, bound.applicability(binding, rows))
-
-    @cached_property
-    def accounted(self) -> NDArray[np.intp]:
-        """Rows, sorted, for which some binding surely applies and makes the whole known change."""
-        pairs = np.flatnonzero(self.applicability == TRUE)
-        same = self.bound.makes_change(self.binding[pairs], self.rows[pairs])
-        return np.unique(self.rows[pairs[same]])
+    def of(cls, operator: Operator, table: SkillTable, attempts: Attempts) -> Application:
+        """Apply an operator to a table, whose transitions are the attempts."""
+        marked = {name: np.zeros(len(table), dtype=bool) for name in _MARKS}
+        counts = table.success & ~table.hanging
+        excused = table.undetermined | table.unexplained
+        for bindings in find_bindings(IndexedOperator(operator, table.space), attempts):
+            marked["possible"][bindings.rows] = True
+            sure = bindings.sure
+            rows, effects = sure.rows, sure.effects()
+            marked["sure"][rows] = True
+            marked["accounted"][rows[_is_change(effects, table, rows)]] = True
+            predicted = np.where(effects == 0, table.before[rows], effects > 0)
+            wrong = ((predicted != table.after[rows]) & ~excused[rows]).any(axis=1)
+            marked["mispredicted"][rows[wrong & counts[rows]]] = True
+        return cls(operator, table, **{name: np.flatnonzero(m) for name, m in marked.items()})
 
     @cached_property
     def similar(self) -> NDArray[np.intp]:
-        """Rows, sorted, for which some binding would make the whole known change."""
-        return np.unique(self.rows[self.bound.makes_change(self.binding, self.rows)])
+        """Rows, sorted, whose whole known change some binding would make, applicable or not."""
+        table, operator = self.table, _effects_alone(self.operator)
+        indexed, before = IndexedOperator(operator, table.space), AbstractStates(table.before)
+        found = np.zeros(len(table), dtype=bool)
+        attempts = replace(attempts_of(table), states=AbstractStates(_changes(table)))
+        for bindings in find_bindings(indexed, attempts):
+            effects = indexed.effects(before, bindings.rows, bindings.objects)
+            found[bindings.rows[_is_change(effects, table, bindings.rows)]] = True
+        return np.flatnonzero(found)
 
-    @cached_property
-    def mispredicted(self) -> NDArray[np.intp]:
-        """Rows, sorted, of successes where a binding surely applies but predicts another change.
 
-        Unknown and unexplained atoms do not count.
-        """
-        table = self.bound.table
-        counts = (table.success & ~table.hanging)[self.rows]
-        pairs = np.flatnonzero(counts & (self.applicability == TRUE))
-        binding, rows = self.binding[pairs], self.rows[pairs]
-        excused = table.undetermined | table.unexplained
-        return np.unique(rows[self.bound.mispredicts(binding, rows, excused)])
+_MARKS = ("possible", "sure", "accounted", "mispredicted")
+
+
+def _is_change(effects: Labels, table: SkillTable, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether effects (bindings, atoms) are the whole known change of rows (bindings,)."""
+    wrong = (effects != table.change[rows]) & ~table.undetermined[rows]
+    same: NDArray[np.bool_] = ~wrong.any(axis=1)
+    return same
+
+
+def _changes(table: SkillTable) -> Labels:
+    """What each atom became (n, atoms): TRUE, FALSE, UNKNOWN or NEITHER."""
+    became = np.select([table.change > 0, table.change < 0], [TRUE, FALSE], NEITHER)
+    return np.where(table.undetermined, UNKNOWN, became).astype(np.int8)
+
+
+def _effects_alone(operator: Operator) -> Operator:
+    """An operator that asks of changes what it makes, and has no parameters but for that."""
+    added, deleted = operator.add_effects, operator.delete_effects
+    ranging = [x for e in operator.conditional_effects for x in (e.effect, *e.condition)]
+    atoms = [*added, *deleted, *(literal.atom for literal in ranging)]
+    used = {term for atom in atoms for term in atom.terms}
+    context = (v for v in operator.context if v.name in used)
+    return replace(
+        operator,
+        parameters=(*operator.parameters[: operator.arity], *context),
+        preconditions=frozenset({*map(Literal, added), *(Literal(a, False) for a in deleted)}),
+        absences=frozenset(),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +129,10 @@ class TablePrediction:
     def executable(self) -> Labels:
         """Whether some operator applies (n,): TRUE, FALSE or UNKNOWN."""
         verdict = np.full(len(self.table), FALSE, dtype=np.int8)
-        for value in (UNKNOWN, TRUE):
-            for found in self.applications:
-                verdict[found.rows[found.applicability == value]] = value
+        for found in self.applications:
+            verdict[found.possible] = UNKNOWN
+        for found in self.applications:
+            verdict[found.sure] = TRUE
         return verdict
 
     @cached_property
@@ -119,6 +167,7 @@ class Predictor:
 
     def __init__(self, data: SkillData) -> None:
         self._data = data
+        self._attempts = [attempts_of(table) for table in data]
         self._known: dict[LearnedOperator, tuple[Application, ...]] = {}
 
     def predict(self, operators: Sequence[LearnedOperator]) -> tuple[TablePrediction, ...]:
@@ -137,7 +186,10 @@ class Predictor:
 
     def _apply(self, learned: LearnedOperator) -> tuple[Application, ...]:
         if learned not in self._known:
-            self._known[learned] = tuple(Application.of(learned, table) for table in self._data)
+            self._known[learned] = tuple(
+                Application.of(learned.operator, table, attempts)
+                for table, attempts in zip(self._data, self._attempts, strict=True)
+            )
         return self._known[learned]
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillwrapper.errors import GoalError, UnknownNameError
-from skillwrapper.grounding.ground import TRUE, UNKNOWN, AtomSpace, Labels
+from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.symbols.predicates import Atom, Literal, Predicate
 
 Goal = frozenset[Literal]

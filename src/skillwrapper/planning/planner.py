@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from skillwrapper.grounding.ground import GroundModel, Labels
+from skillwrapper.grounding import GroundModel, Labels
 from skillwrapper.planning.kstar import KStar, SearchOutcome
 from skillwrapper.planning.problem import PlanningProblem
 from skillwrapper.planning.problem_pddl import write_pddl

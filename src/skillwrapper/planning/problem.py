@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillwrapper.errors import UnknownNameError
-from skillwrapper.grounding.ground import (
+from skillwrapper.grounding import (
     FALSE,
     TRUE,
     UNKNOWN,
@@ -18,6 +18,7 @@ from skillwrapper.grounding.ground import (
     GroundOperator,
     Labels,
 )
+from skillwrapper.grounding.ground_operators import follow, reachable_operators
 from skillwrapper.symbols.predicates import Atom, Literal
 from skillwrapper.world.skills import SkillInstance
 
@@ -28,7 +29,7 @@ class PlanningProblem:
 
     Attributes:
         space: the ground atoms.
-        actions: the ground operators, in the order of the model, each once.
+        actions: the ground operators that may ever apply, in the order of the model, each once.
         initial: the abstract state to start from, of TRUE and FALSE only (shape: atoms).
         guessed: atoms that were unknown at the start and are taken as false.
         goal: the ground literals to reach.
@@ -58,10 +59,11 @@ class PlanningProblem:
                 raise UnknownNameError(
                     "ground atom", str(literal.atom), map(str, model.space.atoms)
                 )
+        start = np.where(initial == TRUE, TRUE, FALSE).astype(np.int8)
         return cls(
             space=model.space,
-            actions=_different(a for found in model.operators.values() for a in found),
-            initial=np.where(initial == TRUE, TRUE, FALSE).astype(np.int8),
+            actions=reachable_operators(model, start),
+            initial=start,
             guessed=tuple(model.space.atoms[i] for i in np.flatnonzero(initial == UNKNOWN)),
             goal=wanted,
         )
@@ -75,33 +77,19 @@ class PlanningProblem:
     @property
     def is_solved(self) -> bool:
         """Whether the goal holds at the start."""
-        return all(self.initial[column] == value for column, value in self.goal_columns.items())
+        return self._is_goal(self.initial)
+
+    def _is_goal(self, state: Labels) -> bool:
+        return all(state[column] == value for column, value in self.goal_columns.items())
 
     def is_plan(self, action_numbers: Sequence[int]) -> bool:
         """Whether the actions, one after the other, are applicable and lead to the goal."""
-        states = self.initial[np.newaxis]
-        for number in action_numbers:
-            if self.actions[number].applicability(states)[0] != TRUE:
-                return False
-            states = self.actions[number].apply(states)
-        return all(states[0, column] == value for column, value in self.goal_columns.items())
+        end = follow((self.actions[number] for number in action_numbers), self.initial)
+        return end is not None and self._is_goal(end)
 
     def skills(self, action_numbers: Sequence[int]) -> tuple[SkillInstance, ...]:
         """The skill instances of a plan given as positions in ``actions``."""
         return tuple(self.actions[number].instance for number in action_numbers)
-
-
-def _different(actions: Iterable[GroundOperator]) -> tuple[GroundOperator, ...]:
-    """The actions without those that do the same as an earlier one."""
-    found: dict[object, GroundOperator] = {}
-    for action in actions:
-        columns = (action.required_true, action.required_false, action.added, action.deleted)
-        conditional = tuple(
-            (tuple(e.required_true), tuple(e.required_false), e.column, e.becomes)
-            for e in action.conditional
-        )
-        found.setdefault((action.instance, *map(tuple, columns), conditional), action)
-    return tuple(found.values())
 
 
 FINISH = "finish"

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from skillwrapper.grounding.ground import TRUE, GroundOperator
+from skillwrapper.grounding import TRUE, GroundOperator
 from skillwrapper.planning.problem import FINISH, PlanningProblem, action_name
 from skillwrapper.symbols.pddl_names import unique_names
 

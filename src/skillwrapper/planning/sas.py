@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from skillwrapper.grounding.ground import TRUE, GroundOperator
+from skillwrapper.grounding import TRUE, GroundOperator
 from skillwrapper.planning.problem import FINISH, PlanningProblem, action_name
 
 _HOLDS, _FAILS = 0, 1

@@ -15,9 +15,8 @@ from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.errors import InternalError
-from skillwrapper.evaluation.exact.abstract_graph import AbstractGraph
 from skillwrapper.evaluation.exact.verification import Verification, verify
-from skillwrapper.grounding import AtomSpace, GroundModel, Labels
+from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.symbols import AbstractModel, Operator, Predicate
 from skillwrapper.symbols.predicates import Atom, Literal
 from skillwrapper.world import Observation, Picture
@@ -175,22 +174,6 @@ def test_json_and_pictures(tmp_path: Path) -> None:
     written = found.counterexamples[0].save_pictures(tmp_path / "counterexamples")
     assert [p.name for p in written] == ["complete-before-main.png", "complete-after-main.png"]
     assert all(p.read_bytes() for p in written)
-
-
-def test_abstract_reachability() -> None:
-    model = expert_model()
-    ground = GroundModel.of(model, model.domain.objects)
-    read = reader(model)
-
-    def row(state: BurgerState) -> Labels:
-        return read([Observation((Picture(repr(state).encode()),))])[0]
-
-    start, cut = BurgerState(), BurgerState(("board", "table", "table", "table"), cut=True)
-    graph = AbstractGraph(ground, limit=5000)
-    assert graph.is_reachable(row(start), row(start)) is True
-    assert graph.is_reachable(row(start), row(cut)) is True
-    assert graph.is_reachable(row(cut), row(start)) is False
-    assert AbstractGraph(ground, limit=3).is_reachable(row(cut), row(start)) is None
 
 
 def test_real_pictures_of_some_states() -> None:

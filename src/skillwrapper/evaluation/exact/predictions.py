@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.evaluation.exact.state_space import StateSpace
-from skillwrapper.grounding.ground import TRUE, UNKNOWN, GroundModel, GroundOperator, Labels
+from skillwrapper.grounding import UNKNOWN, GroundModel, Labels
+from skillwrapper.symbols import Operator
 
 Pairs = NDArray[np.bool_]
 """A value for every state and skill instance (states, instances)."""
@@ -16,17 +18,17 @@ Pairs = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class WrongEffects:
-    """Successes of which an applicable ground operator predicts another change.
+    """Successes of which an applicable binding of an operator predicts another change.
 
     Attributes:
-        operator: the ground operator.
-        instance: index of its skill instance.
+        operator: the operator.
+        instances: indices of the skill instances (n,).
         states: indices of the states before (n,).
         predicted: the abstract states that it predicts (n, atoms).
     """
 
-    operator: GroundOperator
-    instance: int
+    operator: Operator
+    instances: NDArray[np.intp]
     states: NDArray[np.intp]
     predicted: Labels
 
@@ -38,9 +40,9 @@ class Predictions:
     Attributes:
         space: the true state space.
         labels: the abstract state of every state (states, atoms).
-        applicable: some ground operator of the instance surely applies.
+        applicable: some operator of the instance surely applies in some binding.
         undecided: none surely applies, but with other labels for unknown atoms one might.
-        reproduced: some applicable ground operator of the instance predicts what really happens.
+        reproduced: some of these predicts what really happens.
         effects_made: for every instance, number of predicted changes of successes (instances,).
         effects_right: how many of them are what really happens (instances,).
         wrong_effects: those that are not.
@@ -67,10 +69,10 @@ class Predictions:
 
 
 def predict_all(model: GroundModel, space: StateSpace, labels: Labels) -> Predictions:
-    """Apply every ground operator to every state.
+    """Apply every operator in every binding to every state.
 
     Args:
-        model: the ground operators.
+        model: the operators over the objects of the scene.
         space: the true state space.
         labels: the abstract state of every state (states, atoms).
     """
@@ -78,20 +80,24 @@ def predict_all(model: GroundModel, space: StateSpace, labels: Labels) -> Predic
     applicable, possible, reproduced = (np.zeros(shape, dtype=np.bool_) for _ in range(3))
     made, right = (np.zeros(len(space.instances), dtype=np.intp) for _ in range(2))
     wrong: list[WrongEffects] = []
-    for number, instance in enumerate(space.instances):
-        truly_after = labels[space.following[:, number]]
-        for operator in model.operators.get(instance, ()):
-            applicability = operator.applicability(labels)
-            applicable[:, number] |= applicability == TRUE
-            possible[:, number] |= applicability == UNKNOWN
-            states = np.flatnonzero((applicability == TRUE) & space.success[:, number])
-            predicted = operator.apply(labels[states])
-            agrees = (predicted == truly_after[states]).all(axis=1)
-            reproduced[states[agrees], number] = True
-            made[number] += len(states)
-            right[number] += agrees.sum()
+    for numbers in _by_skill(space):
+        for bindings in model.bind(labels, [space.instances[n] for n in numbers]):
+            instance = numbers[bindings.which]
+            unknown = bindings.applicability == UNKNOWN
+            possible[bindings.rows[unknown], instance[unknown]] = True
+            sure = bindings.sure
+            rows, instance = sure.rows, numbers[sure.which]
+            applicable[rows, instance] = True
+            succeeds = space.success[rows, instance]
+            sure, rows, instance = sure.select(succeeds), rows[succeeds], instance[succeeds]
+            predicted = sure.successors()
+            agrees = (predicted == labels[space.following[rows, instance]]).all(axis=1)
+            reproduced[rows[agrees], instance[agrees]] = True
+            np.add.at(made, instance, 1)
+            np.add.at(right, instance[agrees], 1)
             if not agrees.all():
-                wrong.append(WrongEffects(operator, number, states[~agrees], predicted[~agrees]))
+                operator, off = bindings.operator.operator, ~agrees
+                wrong.append(WrongEffects(operator, instance[off], rows[off], predicted[off]))
     undecided = possible & ~applicable
     return Predictions(space, labels, applicable, undecided, reproduced, made, right, tuple(wrong))
 
@@ -99,7 +105,15 @@ def predict_all(model: GroundModel, space: StateSpace, labels: Labels) -> Predic
 def applicable_instances(model: GroundModel, space: StateSpace, labels: Labels) -> Pairs:
     """Which instances surely apply in some abstract states (states, instances)."""
     found = np.zeros((len(labels), len(space.instances)), dtype=np.bool_)
-    for number, instance in enumerate(space.instances):
-        for operator in model.operators.get(instance, ()):
-            found[:, number] |= operator.applicability(labels) == TRUE
+    for numbers in _by_skill(space):
+        for bindings in model.bind(labels, [space.instances[n] for n in numbers]):
+            sure = bindings.sure
+            found[sure.rows, numbers[sure.which]] = True
     return found
+
+
+def _by_skill(space: StateSpace) -> Iterator[NDArray[np.intp]]:
+    """Indices of the instances of each skill."""
+    names = [instance.skill for instance in space.instances]
+    for name in dict.fromkeys(names):
+        yield np.array([n for n, other in enumerate(names) if other == name], dtype=np.intp)

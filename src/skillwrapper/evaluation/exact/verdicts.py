@@ -16,14 +16,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skillwrapper.evaluation.exact.abstract_graph import AbstractGraph
 from skillwrapper.evaluation.exact.predictions import (
     Pairs,
     Predictions,
     WrongEffects,
     applicable_instances,
 )
-from skillwrapper.grounding.ground import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
+from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
+from skillwrapper.grounding.search import StateGraph, is_reachable
 
 _IMAGINED_STATES = 10
 """Abstract states looked at, as a multiple of the true ones, before completeness stays open."""
@@ -92,14 +92,14 @@ def _unsound(space: AtomSpace, predictions: Predictions) -> Iterator[Violation]:
 
 def _wrong_effect(space: AtomSpace, predictions: Predictions, wrong: WrongEffects) -> Violation:
     nearest = int(np.argmin(predictions.space.distance[wrong.states]))
-    state = int(wrong.states[nearest])
-    truth = predictions.labels[predictions.space.following[state, wrong.instance]]
+    state, instance = int(wrong.states[nearest]), int(wrong.instances[nearest])
+    truth = predictions.labels[predictions.space.following[state, instance]]
     predicted = wrong.predicted[nearest]
     return Violation(
         "sound",
-        f"{wrong.operator.operator.name} predicts another change",
+        f"{wrong.operator.name} predicts another change",
         state,
-        wrong.instance,
+        instance,
         _difference(space, predicted, truth),
     )
 
@@ -118,13 +118,14 @@ def _unsuitable(model: GroundModel, predictions: Predictions) -> Iterator[Violat
     yield from _pairs(predictions, alarms, "suitable", "applies, but fails")
     yield from _pairs(predictions, missed, "suitable", "succeeds, but no operator applies")
     for wrong in predictions.wrong_effects:
-        after = predictions.space.following[wrong.states, wrong.instance]
+        after = predictions.space.following[wrong.states, wrong.instances]
         expected = applicable_instances(model, predictions.space, wrong.predicted)
         differs = expected != predictions.space.success[after]
         for number in np.flatnonzero(differs.any(axis=1)):
             other = predictions.space.instances[int(np.argmax(differs[number]))]
-            reason = f"{wrong.operator.operator.name} predicts wrongly whether {other} can follow"
-            yield Violation("suitable", reason, int(wrong.states[number]), wrong.instance)
+            reason = f"{wrong.operator.name} predicts wrongly whether {other} can follow"
+            state, instance = int(wrong.states[number]), int(wrong.instances[number])
+            yield Violation("suitable", reason, state, instance)
 
 
 def _pairs(
@@ -142,13 +143,13 @@ def _completeness(
 ) -> tuple[bool | None, Violation | None]:
     """Whether abstract plans lead wherever skills truly lead."""
     space, labels = predictions.space, predictions.labels
-    graph = AbstractGraph(model, limit=_IMAGINED_STATES * len(space.states))
+    graph = StateGraph(model, limit=_IMAGINED_STATES * len(space.states))
     states, instances = np.nonzero(space.success & ~predictions.reproduced)
     open_questions = False
     for position in np.argsort(space.distance[states], kind="stable"):
         state, instance = int(states[position]), int(instances[position])
         after = labels[space.following[state, instance]]
-        reachable = graph.is_reachable(labels[state], after)
+        reachable = is_reachable(graph, labels[state], after)
         if reachable is False:
             reason = "succeeds, but no abstract plan leads to what is then seen"
             return False, Violation("complete", reason, state, instance)

@@ -15,7 +15,7 @@ from skillwrapper.errors import InternalError
 from skillwrapper.evaluation.exact.predictions import Predictions, predict_all
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.exact.verdicts import Verdicts, Violation, judge
-from skillwrapper.grounding.ground import GroundModel, Labels
+from skillwrapper.grounding import GroundModel, Labels
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.observation import Observation

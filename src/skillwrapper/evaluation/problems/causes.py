@@ -12,7 +12,6 @@ from skillwrapper.evaluation.problems.readers import StateReader
 from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
 from skillwrapper.planning.result import SkillPlan
 from skillwrapper.world.environment import EnumerableEnvironment
-from skillwrapper.world.skills import SkillInstance
 
 
 class Cause(StrEnum):
@@ -88,11 +87,10 @@ class Diagnostician:
         for step in solution:
             _, after = self.environment.successor(state, step)
             before, expected = self._labels(state), self._labels(after)
-            operators = self.model.applicable(step, before)
-            if not operators:
+            following = self.model.successors(before[np.newaxis], step)
+            if not len(following):
                 return Diagnosis(Cause.OPERATOR_MISSING, f"{step} works, but no operator applies")
-            following = [operator.apply(before[np.newaxis])[0] for operator in operators]
-            if not any((labels == expected).all() for labels in following):
+            if not (following == expected).all(axis=1).any():
                 difference = _difference(self.model.space, following[0], expected)
                 return Diagnosis(Cause.EFFECT_WRONG, f"{step}: {difference}")
             state = after
@@ -100,29 +98,20 @@ class Diagnostician:
 
     def bad_plan(self, start: Any, goal: Any, plan: SkillPlan) -> Diagnosis:
         """Why a plan of the model does not lead to the goal, though all labels were right."""
-        imagined, state = {self._labels(start).tobytes()}, start
+        imagined, state = self._labels(start)[np.newaxis], start
         for step in plan:
             succeeded, state = self.environment.successor(state, step)
             if not succeeded:
                 return Diagnosis(Cause.SKILL_FAILED, f"{step} is predicted to work, and fails")
             true = self._labels(state)
-            imagined = self._imagine(imagined, step)
-            if true.tobytes() not in imagined:
-                shown = np.frombuffer(min(imagined), dtype=np.int8) if imagined else true
+            imagined = self.model.successors(imagined, step)
+            if not (imagined == true).all(axis=1).any():
+                shown = imagined[0] if len(imagined) else true
                 difference = _difference(self.model.space, shown, true)
                 return Diagnosis(Cause.EFFECT_WRONG, f"{step}: {difference}")
         if (self._labels(state) == self._labels(goal)).all():
             return Diagnosis(Cause.PREDICATE_MISSING, "what was reached has the labels of the goal")
         return Diagnosis(Cause.EFFECT_WRONG, "what was reached is predicted to be the goal")
-
-    def _imagine(self, states: set[bytes], step: SkillInstance) -> set[bytes]:
-        """The abstract states that some operator of a skill leads to."""
-        rows = [np.frombuffer(state, dtype=np.int8) for state in sorted(states)]
-        return {
-            operator.apply(row[np.newaxis])[0].tobytes()
-            for row in rows
-            for operator in self.model.applicable(step, row)
-        }
 
     def _labels(self, state: Any) -> Labels:
         labels: Labels = self.truth.read(self.model.space, [state])[0]

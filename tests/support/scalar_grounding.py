@@ -1,7 +1,6 @@
-"""Ground operators as arrays: applicability and successors of many abstract states at once.
+"""Operators bound one after the other to all objects: slow, and obviously what is meant.
 
-An abstract state is a row of ``int8`` over the ground atoms of a vocabulary:
-``TRUE`` (1), ``FALSE`` (0) or ``UNKNOWN`` (-1), see DESIGN.md D10.
+The engine of ``skillwrapper.grounding`` is held against it.
 """
 
 from __future__ import annotations
@@ -9,72 +8,17 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from skillwrapper.grounding.atom_index import AtomIndex, Columns
-from skillwrapper.symbols.model import AbstractModel
-from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator
-from skillwrapper.symbols.predicates import Atom, Literal, Predicate, all_groundings
-from skillwrapper.world.skills import SkillInstance
-from skillwrapper.world.types import Object
-
-TRUE, FALSE, UNKNOWN = 1, 0, -1
-Labels = NDArray[np.int8]
+from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
+from skillwrapper.grounding.atom_index import Columns
+from skillwrapper.symbols import Absence, Atom, ConditionalEffect, Literal, Operator
+from skillwrapper.world import SkillInstance
 
 
 @dataclass(frozen=True)
-class AtomSpace:
-    """The ground atoms of a vocabulary over the objects of a scene, one column each.
-
-    Attributes:
-        predicates: the vocabulary.
-        objects: the objects of the scene.
-    """
-
-    predicates: tuple[Predicate, ...]
-    objects: tuple[Object, ...]
-
-    def __hash__(self) -> int:
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash((self.predicates, self.objects))
-
-    @cached_property
-    def atoms(self) -> tuple[Atom, ...]:
-        """The ground atoms in the order of their columns."""
-        return all_groundings(self.predicates, self.objects)
-
-    @cached_property
-    def column(self) -> dict[Atom, int]:
-        """The column of every ground atom."""
-        return {atom: number for number, atom in enumerate(self.atoms)}
-
-    @cached_property
-    def index(self) -> AtomIndex:
-        """Finds columns by the numbers of objects."""
-        return AtomIndex(self.predicates, self.objects)
-
-    @cached_property
-    def atoms_of(self) -> dict[str, tuple[Atom, ...]]:
-        """The ground atoms of every predicate."""
-        return {p.name: p.groundings(self.objects) for p in self.predicates}
-
-    def columns(self, atoms: Iterable[Atom]) -> Columns:
-        """Columns of several atoms, sorted."""
-        return np.array(sorted(self.column[a] for a in atoms), dtype=np.intp)
-
-    def true_atoms(self, state: Labels) -> frozenset[Atom]:
-        """The atoms that are true in a state (shape: atoms)."""
-        return frozenset(self.atoms[i] for i in np.flatnonzero(state == TRUE))
-
-
-@dataclass(frozen=True)
-class GroundConditionalEffect:
+class ScalarConditionalEffect:
     """One object's share of a conditional effect: columns that must hold, column that changes."""
 
     required_true: Columns
@@ -84,8 +28,8 @@ class GroundConditionalEffect:
 
 
 @dataclass(frozen=True)
-class GroundOperator:
-    """An operator with objects for its parameters (the paper's abstract action).
+class ScalarOperator:
+    """An operator with objects for its parameters.
 
     Attributes:
         operator: the lifted operator.
@@ -103,7 +47,7 @@ class GroundOperator:
     required_false: Columns
     added: Columns
     deleted: Columns
-    conditional: tuple[GroundConditionalEffect, ...] = ()
+    conditional: tuple[ScalarConditionalEffect, ...] = ()
 
     @property
     def instance(self) -> SkillInstance:
@@ -135,52 +79,18 @@ class GroundOperator:
         return following
 
 
-@dataclass(frozen=True)
-class GroundModel:
-    """All ground operators of a model over the objects of a scene.
-
-    Attributes:
-        space: the ground atoms.
-        operators: ground operators by skill instance; an instance without any is missing.
-    """
-
-    space: AtomSpace
-    operators: dict[SkillInstance, tuple[GroundOperator, ...]]
-
-    @classmethod
-    def of(cls, model: AbstractModel, objects: Sequence[Object]) -> GroundModel:
-        """Ground a model over objects."""
-        return cls.from_operators(model.operators, AtomSpace(model.predicates, tuple(objects)))
-
-    @classmethod
-    def from_operators(cls, operators: Iterable[Operator], space: AtomSpace) -> GroundModel:
-        """Ground operators over an atom space."""
-        grounded: dict[SkillInstance, list[GroundOperator]] = {}
-        for operator in operators:
-            for ground in ground_operator(operator, space):
-                grounded.setdefault(ground.instance, []).append(ground)
-        return cls(space, {instance: tuple(found) for instance, found in grounded.items()})
-
-    def applicable(self, instance: SkillInstance, state: Labels) -> tuple[GroundOperator, ...]:
-        """The ground operators of an instance that surely apply in one state (atoms,)."""
-        rows = state[np.newaxis]
-        return tuple(
-            g for g in self.operators.get(instance, ()) if g.applicability(rows)[0] == TRUE
-        )
-
-
-def ground_operator(operator: Operator, space: AtomSpace) -> Iterator[GroundOperator]:
+def ground_operator(operator: Operator, space: AtomSpace) -> Iterator[ScalarOperator]:
     """All bindings of an operator's parameters to distinct objects of the right types."""
     choices = [[o for o in space.objects if o.has_types(v.types)] for v in operator.parameters]
     for chosen in itertools.product(*choices):
         names = tuple(o.name for o in chosen)
         if len(set(names)) == len(names):
-            ground = _bind(operator, names, space)
+            ground = bind(operator, names, space)
             if ground is not None:
                 yield ground
 
 
-def _bind(operator: Operator, names: tuple[str, ...], space: AtomSpace) -> GroundOperator | None:
+def bind(operator: Operator, names: tuple[str, ...], space: AtomSpace) -> ScalarOperator | None:
     """The ground operator, or None if it can never apply."""
     binding = dict(zip((v.name for v in operator.parameters), names, strict=True))
     required = [literal.substitute(binding) for literal in operator.preconditions]
@@ -188,7 +98,7 @@ def _bind(operator: Operator, names: tuple[str, ...], space: AtomSpace) -> Groun
     false = {literal.atom for literal in required if not literal.positive}
     for absence in operator.absences:
         false.update(absent_atoms(absence, binding, space))
-    if true & false or any(atom not in space.column for atom in true):
+    if any(atom not in space.column for atom in true):
         return None
     # An atom that is no grounding (wrong types) is false in every state.
     false = {atom for atom in false if atom in space.column}
@@ -196,7 +106,7 @@ def _bind(operator: Operator, names: tuple[str, ...], space: AtomSpace) -> Groun
     deleted = [atom.substitute(binding) for atom in operator.delete_effects]
     if any(atom not in space.column for atom in (*added, *deleted)):
         return None
-    return GroundOperator(
+    return ScalarOperator(
         operator,
         names,
         space.columns(true),
@@ -225,7 +135,7 @@ def absent_atoms(absence: Absence, binding: dict[str, str], space: AtomSpace) ->
 
 def _bind_conditional(
     effect: ConditionalEffect, binding: dict[str, str], arguments: Sequence[str], space: AtomSpace
-) -> Iterator[GroundConditionalEffect]:
+) -> Iterator[ScalarConditionalEffect]:
     for other in space.objects:
         if other.name in arguments or not other.has_types(effect.quantified.types):
             continue
@@ -234,7 +144,7 @@ def _bind_conditional(
         changed = effect.effect.substitute(extended)
         known = all(literal.atom in space.column for literal in condition if literal.positive)
         if known and changed.atom in space.column:
-            yield GroundConditionalEffect(
+            yield ScalarConditionalEffect(
                 _columns_of(condition, space, positive=True),
                 _columns_of(condition, space, positive=False),
                 space.column[changed.atom],

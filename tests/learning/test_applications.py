@@ -1,0 +1,94 @@
+"""What operators say of transitions, all at once and one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from hypothesis import given
+from notebook import Notebook
+from random_worlds import QUICK, notebooks
+from scalar_grounding import ScalarOperator, ground_operator
+
+from skillwrapper.grounding import FALSE, TRUE
+from skillwrapper.learning.predictions import Application, attempts_of
+from skillwrapper.symbols import Atom, ConditionalEffect, Literal, Operator, Variable
+from skillwrapper.transitions.tables import SkillTable
+
+
+@dataclass
+class Expected:
+    """Rows of a table, found by binding an operator to one object after the other."""
+
+    possible: set[int] = field(default_factory=set)
+    sure: set[int] = field(default_factory=set)
+    accounted: set[int] = field(default_factory=set)
+    mispredicted: set[int] = field(default_factory=set)
+    similar: set[int] = field(default_factory=set)
+
+
+def expected(operator: Operator, table: SkillTable) -> Expected:
+    found = Expected()
+    for ground in ground_operator(operator, table.space):
+        for row, which in enumerate(table.which):
+            if table.instances[which] == ground.instance:
+                note(found, ground, table, row)
+    return found
+
+
+def note(found: Expected, ground: ScalarOperator, table: SkillTable, row: int) -> None:
+    state = table.before[[row]]
+    verdict, effect = ground.applicability(state)[0], ground.effects(state)[0]
+    whole = (effect == table.change[row]) | table.undetermined[row]
+    right = ground.apply(state)[0] == table.after[row]
+    right |= table.undetermined[row] | table.unexplained[row]
+    if whole.all():
+        found.similar.add(row)
+    if verdict != FALSE:
+        found.possible.add(row)
+    if verdict == TRUE:
+        found.sure.add(row)
+        if whole.all():
+            found.accounted.add(row)
+        if not right.all() and table.success[row] and not table.hanging[row]:
+            found.mispredicted.add(row)
+
+
+def operators(notebook: Notebook) -> Iterator[tuple[Operator, SkillTable]]:
+    """What is learned, as it is and with conditional effects."""
+    for fit in notebook.fit().skills.values():
+        for prediction in fit.predictions:
+            for learned in prediction.operators:
+                operator = learned.operator
+                yield operator, prediction.table
+                effects = frozenset(conditional(operator))
+                yield replace(operator, conditional_effects=effects), prediction.table
+
+
+def conditional(operator: Operator) -> Iterator[ConditionalEffect]:
+    """Whatever does, or does not, lie on a parameter becomes clean and dark."""
+    each = Variable("?each", ("thing",))
+    clean = Literal(Atom("clean", ("?each",)), positive=False)
+    for parameter in operator.parameters:
+        on = Atom("on", ("?each", parameter.name))
+        yield ConditionalEffect(each, (Literal(on),), clean)
+        yield ConditionalEffect(each, (Literal(on, positive=False),), Literal(Atom("dark", ())))
+
+
+@QUICK
+@given(notebooks(unknowns=True))
+def test_what_operators_say_of_transitions(notebook: Notebook) -> None:
+    for operator, table in operators(notebook):
+        found = Application.of(operator, table, attempts_of(table))
+        wanted = expected(operator, table)
+        assert set(found.possible) == wanted.possible
+        assert set(found.sure) == wanted.sure
+        assert set(found.accounted) == wanted.accounted
+        assert set(found.mispredicted) == wanted.mispredicted
+        assert set(found.similar) >= wanted.similar
+        if all(v.name in terms_of_effects(operator) for v in operator.context):
+            assert set(found.similar) == wanted.similar  # else it asks for less
+
+
+def terms_of_effects(operator: Operator) -> set[str]:
+    return {t for a in operator.add_effects | operator.delete_effects for t in a.terms}
