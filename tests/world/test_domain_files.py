@@ -90,7 +90,7 @@ def test_mistake_in_a_scene_is_named_with_its_line(
     [
         ("agent: A robot.\n", "", 1, "expected a value for 'agent', got none"),
         ("agent:", "agnet:", 2, "did you mean 'agent'?"),
-        ("name: kitchen", "name: 3 kitchens", 1, "'name': String should match"),
+        ("name: kitchen", "name: 3 kitchens", 1, "'name': expected a letter, then letters"),
         ("parents: [food]", "parents: [foot]", 8, "unknown type 'foot'; did you mean 'food'"),
         ("parents: [food]", "parents: food", 8, "expected a list, got 'food'"),
         ("    types: [fruit]", "    types: []", 13, "at least 1 item"),

@@ -7,8 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
+from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.output import JsonFlag, print_json, results
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
@@ -33,7 +34,7 @@ def show_domain(
     if Path(name).suffix in (".yaml", ".yml"):
         domain = load_domain(Path(name))
     else:
-        environment = make_environment(name)
+        environment = find_domain(name).make_environment()
         domain = environment.domain
         if isinstance(environment, EnumerableEnvironment):
             figures["reachable_states"] = len(environment.reachable_states())
@@ -46,7 +47,7 @@ def show_domain(
 
 
 def render(
-    name: Annotated[str, typer.Argument(help="A bundled domain, e.g. burger.")],
+    name: DomainArgument,
     out: Annotated[Path, typer.Option(help="The PNG file to write.")],
     seed: Annotated[int, typer.Option(min=0, help="Chooses the layout.")] = 0,
     state: Annotated[
@@ -60,7 +61,7 @@ def render(
     as_json: JsonFlag = False,
 ) -> None:
     """Write a picture of a domain in some state."""
-    environment = make_environment(name)
+    environment = find_domain(name).make_environment()
     observation = environment.reset(seed=seed)
     if state is not None:
         observation = _set_state(environment, state, seed)

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.estimates import print_estimate
 from skillwrapper.cli.model_options import (
     BaseUrlOption,
@@ -42,7 +43,7 @@ def register(app: typer.Typer) -> None:
 
 
 def learn(
-    domain: Annotated[str, typer.Argument(help="A bundled domain, e.g. burger.")],
+    domain: DomainArgument,
     out: Annotated[Path, typer.Option(help="Folder of the run; an existing run is resumed.")],
     seed: Annotated[int, typer.Option(min=0, help="Decides everything left to chance.")] = 0,
     iterations: Annotated[int, typer.Option(min=1, help="How often to explore and learn.")] = 5,

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.grounding import TRUE, AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.planning.execution import ExecutionReport, attempt
@@ -75,7 +75,7 @@ def solve(
 ) -> None:
     """Plan, execute in the domain, and save an animation."""
     learned = LearnedRun.read(RunFolder.open(run))
-    environment = make_environment(learned.folder.config().domain)
+    environment = find_domain(learned.folder.config().domain).make_environment()
     planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
     target = gif or run / "solve.gif"
     with open_assistant(learned.folder.config(), learned.folder, learning=False) as session:

@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
+from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.world.environment import EnumerableEnvironment
@@ -23,7 +23,7 @@ def register(app: typer.Typer) -> None:
 
 
 def problems(
-    domain: Annotated[str, typer.Argument(help="A bundled domain, e.g. burger.")],
+    domain: DomainArgument,
     out: Annotated[Path | None, typer.Option(help="The YAML file to write.")] = None,
     easy: Annotated[int, typer.Option(min=0, help="Optimal solutions of 1 to 7 skills.")] = 20,
     hard: Annotated[int, typer.Option(min=0, help="Optimal solutions of 8 to 15 skills.")] = 20,
@@ -32,13 +32,14 @@ def problems(
     as_json: JsonFlag = False,
 ) -> None:
     """Make test problems by exact search; the same seed makes the same ones."""
-    environment = make_environment(domain)
+    package = find_domain(domain)
+    environment = package.make_environment()
     if not isinstance(environment, EnumerableEnvironment):
         raise ConfigurationError(f"{domain}: its states cannot be listed; write problems by hand")
     if out is not None and out.exists():
         raise ConfigurationError(f"{out} exists already; choose another --out, nothing was changed")
     with messages().status("searching all states"):
-        generator = ProblemGenerator(environment, reference_of(domain), seed)
+        generator = ProblemGenerator(environment, package, seed)
         made = generator.generate(easy, hard, impossible)
     environment.close()
     if out is not None:

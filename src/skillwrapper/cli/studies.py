@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
+from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.output import JsonFlag, messages, print_json
 from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.evaluation.study.conditions import CONDITIONS, find_conditions
@@ -72,7 +73,7 @@ def perception(
 
 
 def invention(
-    domain: Annotated[str, typer.Argument(help="A bundled domain, e.g. burger.")],
+    domain: DomainArgument,
     model: ModelsOption = None,
     noise: NoiseOption = "none",
     runs: Annotated[int, typer.Option(min=1, help="How often each pair is put to a model.")] = 3,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from rich.console import Console
 from rich.table import Table
 
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.exact.learning_curves import (
     CurvePoint,
@@ -65,7 +65,7 @@ def run_verification(
     """
     started = time.monotonic()
     config = learned.folder.config()
-    environment = make_environment(config.domain)
+    environment = find_domain(config.domain).make_environment()
     if not isinstance(environment, EnumerableEnvironment):
         raise ConfigurationError(
             f"{config.domain}: its states cannot be listed, so there is no exact verification"

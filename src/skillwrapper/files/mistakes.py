@@ -56,7 +56,7 @@ def first_mistake(error: ValidationError, model: type[BaseModel]) -> Mistake:
     mistakes = error.errors(include_url=False)
     unknown = (mistake for mistake in mistakes if mistake["type"] == "extra_forbidden")
     first = next(unknown, mistakes[0])
-    location = first["loc"]
+    location = tuple(part for part in first["loc"] if part != "[key]")
     name = ".".join(str(part) for part in location) or "the file"
     if first["type"] == "extra_forbidden":
         return Mistake(location, f"unknown key '{name}'{_nearest_field(model, location)}")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import closing
 from dataclasses import dataclass
 
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ProviderError, UserError
 from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.invention.questions import InventionQuestion
@@ -167,7 +167,7 @@ def _of_no_use(check: str, unusable: tuple[str, ...]) -> Finding:
 def _specimen() -> _Specimen:
     picked = SkillInstance("Pick", ("robot", "patty"))
     in_vain = SkillInstance("Pick", ("robot", "lettuce"))
-    with closing(make_environment("burger")) as kitchen:
+    with closing(find_domain("burger").make_environment()) as kitchen:
         start = kitchen.reset(seed=0)
         first = kitchen.execute(picked)
         second = kitchen.execute(in_vain)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from contextlib import closing
 from pathlib import Path
 
-from skillwrapper.domains.registry import domain_file, make_environment
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ProviderError, RunFolderError, UserError
 from skillwrapper.runs.assistants import Session, Spending, check_models, open_assistant
 from skillwrapper.runs.config import RunConfig
@@ -46,13 +47,15 @@ def learn(
         RobotError: if the environment fails.
         LimitReachedError: if a limit of the user's is reached; the run can be resumed.
     """
+    package = find_domain(config.domain)
+    config = config.model_copy(update={"domain": package.reference})
     check_models(config)  # first: a mistake in a name or a missing key leaves no folder behind
     with held(out):
         is_new = not (out / CONFIG).exists()
-        folder = RunFolder.create_or_resume(out, config, domain_file(config.domain))
+        folder = RunFolder.create_or_resume(out, config, package.file)
         _check_length(folder, config)
         try:
-            return _learn(config, folder, onlooker or Onlooker(), spending)
+            return _learn(config, package, folder, onlooker or Onlooker(), spending)
         except (UserError, ProviderError):
             if is_new and not _has_records(folder):
                 folder.discard_beginning()  # so that the mistake can be mended under this name
@@ -80,10 +83,14 @@ def _has_records(folder: RunFolder) -> bool:
 
 
 def _learn(
-    config: RunConfig, folder: RunFolder, onlooker: Onlooker, spending: Spending | None
+    config: RunConfig,
+    package: DomainPackage,
+    folder: RunFolder,
+    onlooker: Onlooker,
+    spending: Spending | None,
 ) -> LearningResult:
     with (
-        closing(make_environment(config.domain)) as environment,
+        closing(package.make_environment()) as environment,
         open_assistant(config, folder, spending=spending) as session,
     ):
 

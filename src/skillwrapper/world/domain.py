@@ -8,10 +8,9 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
-from pydantic import BaseModel, ConfigDict, Field
-
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.world.domain_file import DomainFile
 from skillwrapper.world.scenes import DEFAULT_SCENE, Scene
 from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
 from skillwrapper.world.types import Object, TypeHierarchy
@@ -96,53 +95,22 @@ class Domain:
             )
 
 
-class _TypeEntry(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-    parents: list[str] = Field(default_factory=list)
-    description: str = ""
-
-
-class _ObjectEntry(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-    types: list[str] = Field(min_length=1)
-    description: str = ""
-
-
-class _ParameterEntry(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-    name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")
-    type: str
-    role: str = ""
-
-
-class _SkillEntry(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-    parameters: list[_ParameterEntry]
-    description: str = ""
-
-
-class _DomainFile(BaseModel):
-    """The layout of ``domain.yaml``."""
-
-    model_config = ConfigDict(extra="forbid")
-    name: str = Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$")
-    agent: str
-    description: str
-    failures_change_nothing: bool = False
-    types: dict[str, _TypeEntry]
-    objects: dict[str, _ObjectEntry]
-    skills: dict[str, _SkillEntry]
-    scenes: dict[str, list[str]] = Field(default_factory=dict)
-
-
 def load_domain(path: Path) -> Domain:
     """Read a domain from its YAML file.
 
     Raises:
         ConfigurationError: with file, line and what was expected.
     """
-    document = YamlDocument.read(path)
-    entries = document.validate(_DomainFile)
+    return build_domain(YamlDocument.read(path))
+
+
+def build_domain(document: YamlDocument) -> Domain:
+    """The domain of a YAML document.
+
+    Raises:
+        ConfigurationError: with file, line and what was expected.
+    """
+    entries = document.validate(DomainFile)
     hierarchy = _build_types(document, entries)
     objects = _build_objects(document, entries, hierarchy)
     return Domain(
@@ -157,7 +125,7 @@ def load_domain(path: Path) -> Domain:
     )
 
 
-def _build_types(document: YamlDocument, entries: _DomainFile) -> TypeHierarchy:
+def _build_types(document: YamlDocument, entries: DomainFile) -> TypeHierarchy:
     for name, entry in entries.types.items():
         for parent in entry.parents:
             _check_type(document, entries, parent, ("types", name, "parents"))
@@ -171,7 +139,7 @@ def _build_types(document: YamlDocument, entries: _DomainFile) -> TypeHierarchy:
 
 
 def _build_objects(
-    document: YamlDocument, entries: _DomainFile, hierarchy: TypeHierarchy
+    document: YamlDocument, entries: DomainFile, hierarchy: TypeHierarchy
 ) -> tuple[Object, ...]:
     objects = []
     for name, entry in entries.objects.items():
@@ -182,7 +150,7 @@ def _build_objects(
     return tuple(objects)
 
 
-def _build_skills(document: YamlDocument, entries: _DomainFile) -> tuple[Skill, ...]:
+def _build_skills(document: YamlDocument, entries: DomainFile) -> tuple[Skill, ...]:
     skills = []
     for name, entry in entries.skills.items():
         for number, parameter in enumerate(entry.parameters):
@@ -197,7 +165,7 @@ def _build_skills(document: YamlDocument, entries: _DomainFile) -> tuple[Skill, 
 
 
 def _build_scenes(
-    document: YamlDocument, entries: _DomainFile, objects: tuple[Object, ...]
+    document: YamlDocument, entries: DomainFile, objects: tuple[Object, ...]
 ) -> tuple[Scene, ...]:
     for scene, names in entries.scenes.items():
         where = document.place(("scenes", scene))
@@ -213,7 +181,7 @@ def _build_scenes(
 
 
 def _check_type(
-    document: YamlDocument, entries: _DomainFile, name: str, place: tuple[str | int, ...]
+    document: YamlDocument, entries: DomainFile, name: str, place: tuple[str | int, ...]
 ) -> None:
     if name not in entries.types:
         raise UnknownNameError("type", name, entries.types, document.place(place))

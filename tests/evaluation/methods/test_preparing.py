@@ -11,10 +11,10 @@ import pytest
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import InternalError
 from skillwrapper.evaluation.benchmark.bills import learning_bill
 from skillwrapper.evaluation.benchmark.efficiency import efficiency_of
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Bench, Cell, CellSettings, Prepared
 from skillwrapper.evaluation.methods.registry import method_of
@@ -33,7 +33,7 @@ def truth() -> StateTruth:
 def prepared(method: str, folder: Path, source: Path | None = None) -> Iterator[Prepared]:
     cell = Cell(method, "burger", 1, "none")
     bench = Bench(
-        cell, SETTINGS, folder, source, BurgerEnvironment(), reference_of("burger"), truth()
+        cell, SETTINGS, folder, source, BurgerEnvironment(), find_domain("burger"), truth()
     )
     with method_of(method).prepare(bench) as ready:
         yield ready
@@ -95,7 +95,7 @@ def test_batch_is_invented_once(tmp_path: Path) -> None:
 @pytest.mark.parametrize("method", ["expert", "expert-read"])
 def test_expert_solves_a_problem(method: str, tmp_path: Path) -> None:
     (problem,) = (
-        read_problems(reference_of("burger").problems, BurgerEnvironment()).first(1, 0, 0).problems
+        read_problems(find_domain("burger").problems, BurgerEnvironment()).first(1, 0, 0).problems
     )
     with prepared(method, tmp_path) as ready:
         found = ready.solver.solve(problem)

@@ -11,8 +11,8 @@ import pytest
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.impossibility import impossibility
 from skillwrapper.domains.burger.states import BurgerState
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError, UnknownNameError
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
 from skillwrapper.evaluation.problems.problems import (
@@ -27,7 +27,7 @@ EASY, HARD, IMPOSSIBLE = ProblemClass
 
 @cache
 def shipped() -> ProblemSet:
-    return read_problems(reference_of("burger").problems, BurgerEnvironment())
+    return read_problems(find_domain("burger").problems, BurgerEnvironment())
 
 
 @cache
@@ -66,16 +66,16 @@ def test_shipped_set_is_spread() -> None:
         counts = Counter(p.length for p in problems.of(kind))
         assert set(counts) == set(lengths)
         assert max(counts.values()) <= 3
-    reference = reference_of("burger")
+    reference = find_domain("burger")
     built = Counter(reference.structure(states(p)[1]) for p in problems.problems)
     assert len(built) >= 30
     assert len({p.layout for p in problems.problems}) == 50
     kinds = Counter((impossibility(*states(p)) or ("",))[0] for p in problems.of(IMPOSSIBLE))
-    assert set(kinds) == set(reference.impossible_kinds)
+    assert set(kinds) == set(reference.impossibility.kinds)
 
 
 def test_same_seed_makes_the_same_problems(tmp_path: Path) -> None:
-    kitchen, reference = BurgerEnvironment(), reference_of("burger")
+    kitchen, reference = BurgerEnvironment(), find_domain("burger")
     first = ProblemGenerator(kitchen, reference, seed=5).generate(3, 3, 6)
     again = ProblemGenerator(kitchen, reference, seed=5).generate(3, 3, 6)
     other = ProblemGenerator(kitchen, reference, seed=6).generate(3, 3, 6)
@@ -85,7 +85,7 @@ def test_same_seed_makes_the_same_problems(tmp_path: Path) -> None:
 
 
 def test_shipped_set_was_made_by_the_generator() -> None:
-    generator = ProblemGenerator(BurgerEnvironment(), reference_of("burger"), shipped().seed)
+    generator = ProblemGenerator(BurgerEnvironment(), find_domain("burger"), shipped().seed)
     assert generator.generate(20, 20, 10) == shipped()
 
 
@@ -95,7 +95,7 @@ def test_first_problems_of_each_class() -> None:
 
 
 def test_more_problems_than_there_are() -> None:
-    generator = ProblemGenerator(BurgerEnvironment(), reference_of("burger"), 0)
+    generator = ProblemGenerator(BurgerEnvironment(), find_domain("burger"), 0)
     with pytest.raises(ConfigurationError, match="found no more optimal solutions of 99 skills"):
         generator._draw(
             lambda start: generator._at_distance(99, start),
@@ -111,7 +111,7 @@ def test_no_reason_where_several_or_none_are_known() -> None:
 
 
 MISTAKES = (
-    ("class: easy", "class: medium", r":5: 'problems\.0\.class': Input should be 'easy'"),
+    ("class: easy", "class: medium", r":5: 'problems\.0\.class': expected 'easy'"),
     ("length: 1", "lenght: 1", r":6: unknown key 'problems\.0\.lenght'"),
     ("class: easy", "class: impossible", "expected a reason and no length for a problem of"),
     ("domain: burger", "domain: panda", r":1: expected problems of burger, got problems of panda"),
@@ -138,4 +138,4 @@ def test_names_are_unique(tmp_path: Path) -> None:
 
 def test_domain_without_a_reference() -> None:
     with pytest.raises(UnknownNameError, match="did you mean 'burger'"):
-        reference_of("burgers")
+        find_domain("burgers")

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import yaml
 
-from skillwrapper.domains.registry import domain_file
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.evaluation.study.contrastive_pairs import read_pairs
-from skillwrapper.evaluation.study.invention import PAIRS_FILE, study_invention
+from skillwrapper.evaluation.study.invention import study_invention
 from skillwrapper.evaluation.study.judge import MeaningJudge
 from skillwrapper.evaluation.study.meaning import Meaning, compare_meaning, target_columns
 from skillwrapper.evaluation.study.models import StudiedModel
@@ -15,7 +15,7 @@ from skillwrapper.evaluation.study.tables import invention_tables
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.world.types import Object
 
-PAIRS = domain_file("burger").with_name(PAIRS_FILE)
+PAIRS = find_domain("burger").pairs
 
 
 @pytest.fixture(scope="module")

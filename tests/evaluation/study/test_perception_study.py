@@ -92,7 +92,7 @@ def test_distortions_change_pictures_and_keep_their_size() -> None:
 def test_unknown_conditions_models_and_domains_are_named() -> None:
     with pytest.raises(UnknownNameError, match="did you mean 'blur'"):
         find_conditions(["blurr"])
-    with pytest.raises(UnknownNameError, match="domain or folder of a run"):
+    with pytest.raises(UnknownNameError, match="unknown domain"):
         subject_of("burgr")
     with pytest.raises(UnknownNameError), open_studied(StudiedModel("embeded")):
         pass

@@ -10,7 +10,7 @@ from skillwrapper.domains.burger import rules
 from skillwrapper.domains.burger.layout import Layout, make_layout
 from skillwrapper.domains.burger.renderer import BurgerRenderer
 from skillwrapper.domains.burger.states import BurgerState, state_from_data, state_to_data
-from skillwrapper.domains.burger.style import CLASSIC, Style
+from skillwrapper.domains.burger.style import CHALK, CLASSIC, Style
 from skillwrapper.domains.burger.system_predicates import system_atoms
 from skillwrapper.errors import RobotError
 from skillwrapper.world.domain import Domain, load_domain
@@ -28,10 +28,11 @@ class BurgerEnvironment:
 
     Args:
         style: how the pictures are drawn.
+        domain: of ``domain.yaml``; None to read it.
     """
 
-    def __init__(self, style: Style = CLASSIC) -> None:
-        self._domain = load_domain(Path(__file__).with_name("domain.yaml"))
+    def __init__(self, style: Style = CLASSIC, *, domain: Domain | None = None) -> None:
+        self._domain = domain or load_domain(Path(__file__).with_name("domain.yaml"))
         self._renderer = BurgerRenderer(style)
         self._state = BurgerState()
         self._layout: Layout | None = None
@@ -135,3 +136,8 @@ class BurgerEnvironment:
         if self._layout is None:
             raise RobotError("expected reset(seed=...) first, got another call; reset the kitchen")
         return self._layout
+
+
+def chalk_kitchen() -> BurgerEnvironment:
+    """The same kitchen drawn with chalk."""
+    return BurgerEnvironment(CHALK)

@@ -9,16 +9,7 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.domains.burger.states import ITEMS, STATIONS, TABLE, BurgerState
-
-IMPOSSIBLE_KINDS: Final = (
-    "back_on_table",
-    "no_free_place",
-    "out_of_reach",
-    "raw_beneath",
-    "uncut",
-    "uncooked",
-)
-"""Kinds of impossible problems; ``impossibility`` names one of them."""
+from skillwrapper.domains.package import Impossibility
 
 
 def impossibility(start: BurgerState, goal: BurgerState) -> tuple[str, str] | None:
@@ -27,6 +18,13 @@ def impossibility(start: BurgerState, goal: BurgerState) -> tuple[str, str] | No
     if not found and TABLE not in start.places:
         found += _two_places(start, goal)
     return found[0] if len(found) == 1 else None
+
+
+IMPOSSIBILITY: Final = Impossibility(
+    ("back_on_table", "no_free_place", "out_of_reach", "raw_beneath", "uncut", "uncooked"),
+    impossibility,
+)
+"""What is known of it, for the domain package."""
 
 
 def structure(state: BurgerState) -> str:

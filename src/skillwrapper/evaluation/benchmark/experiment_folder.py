@@ -17,12 +17,11 @@ from pathlib import Path
 
 import yaml
 
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError, RunFolderError
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
 from skillwrapper.evaluation.benchmark.experiments import Experiment
 from skillwrapper.evaluation.benchmark.origins import Origin
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.methods.method import Cell
 from skillwrapper.evaluation.problems.problems import ProblemSet, read_problems
 from skillwrapper.files.json_documents import read_lines
@@ -175,7 +174,7 @@ def enumerable_environment(domain: str) -> EnumerableEnvironment:
     Raises:
         ConfigurationError: if it cannot.
     """
-    environment = make_environment(domain)
+    environment = find_domain(domain).make_environment()
     if not isinstance(environment, EnumerableEnvironment):
         raise ConfigurationError(f"{domain}: its states cannot be listed, as experiments need")
     return environment
@@ -183,6 +182,6 @@ def enumerable_environment(domain: str) -> EnumerableEnvironment:
 
 def _choose(experiment: Experiment, domain: str) -> ProblemSet:
     choice = experiment.problems
-    path = Path(choice.file) if choice.file else reference_of(domain).problems
+    path = Path(choice.file) if choice.file else find_domain(domain).problems
     problems = read_problems(path, enumerable_environment(domain))
     return problems.first(choice.easy, choice.hard, choice.impossible)

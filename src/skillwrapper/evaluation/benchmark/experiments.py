@@ -7,9 +7,9 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.embedded.noise import PROFILES, noise_profile
-from skillwrapper.errors import ConfigurationError, UnknownNameError
-from skillwrapper.evaluation.exact.references import reference_names
+from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
 from skillwrapper.evaluation.methods.method import Cell, CellSettings
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.files.yaml_documents import YamlDocument
@@ -99,7 +99,8 @@ def read_experiment(path: Path) -> Experiment:
     document = YamlDocument.read(path)
     experiment = document.validate(Experiment)
     _check_names(document, "methods", "method", experiment.methods, METHODS)
-    _check_names(document, "domains", "domain", experiment.domains, reference_names())
+    for number, domain in enumerate(experiment.domains):
+        _check_domain(domain, document.place(("domains", number)))
     for key in ("methods", "domains", "seeds", "noise"):
         _check_different(document, key, getattr(experiment, key))
     for number, name in enumerate(experiment.noise):
@@ -118,6 +119,13 @@ def _check_names(
     for number, name in enumerate(names):
         if name not in known:
             raise UnknownNameError(kind, name, known, document.place((key, number)))
+
+
+def _check_domain(reference: str, where: str) -> None:
+    try:
+        find_domain(reference)
+    except UserError as error:
+        raise ConfigurationError(f"{where}: {error}") from error
 
 
 def _check_different(document: YamlDocument, key: str, values: tuple[object, ...]) -> None:

@@ -14,13 +14,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Protocol
 
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import InternalError, SkillWrapperError
 from skillwrapper.evaluation.benchmark.cells import run_cell
 from skillwrapper.evaluation.benchmark.experiment_folder import (
     ExperimentFolder,
     enumerable_environment,
 )
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Bench, Cell
 from skillwrapper.evaluation.methods.registry import METHODS
@@ -88,7 +88,7 @@ def _run(folder: ExperimentFolder, cell: Cell) -> None:
         folder=folder.cell(cell),
         source=folder.cell(source) if source else None,
         environment=environment,
-        reference=reference_of(cell.domain),
+        package=find_domain(cell.domain),
         truth=_truth(cell.domain, folder.truth),
     )
     run_cell(METHODS[cell.method], bench, folder.problems(cell.domain))

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Final
 
-from skillwrapper.domains.registry import domain_file
 from skillwrapper.evaluation.exact.learning_curves import Stage
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import AtomReader, PictureReader
@@ -35,7 +34,8 @@ class ExpertMethod:
     @contextmanager
     def prepare(self, bench: Bench) -> Iterator[Prepared]:
         """Load the expert's model."""
-        model, truth = bench.reference.expert_model(), AtomReader(bench.reference.expert_atoms)
+        expert = bench.package.expert
+        model, truth = expert.model, AtomReader(expert.atoms)
         stages = (Stage(0, model),)
         states = bench.truth.space.states
         if not self.reads_pictures:
@@ -44,7 +44,7 @@ class ExpertMethod:
             return
         config = bench.config()
         path = bench.folder / "run"
-        folder = RunFolder.create_or_resume(path, config, domain_file(config.domain))
+        folder = RunFolder.create_or_resume(path, config, bench.package.file)
         with open_assistant(config, folder, learning=False) as session:
             table = TruthTable(bench.environment.domain, session.assistant)
             reader = PictureReader(bench.environment, table)

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from skillwrapper.domains.registry import domain_file
 from skillwrapper.evaluation.exact.learning_curves import read_stages
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import PictureReader
@@ -46,7 +45,7 @@ class LearnedMethod:
         """Learn in the folder ``run`` of the cell, which can be looked at like any other run."""
         config = self.configure(bench.config())
         path = bench.folder / "run"
-        folder = RunFolder.create_or_resume(path, config, domain_file(config.domain))
+        folder = RunFolder.create_or_resume(path, config, bench.package.file)
         figures = _learn(bench, config, folder)
         stages = read_stages(folder, bench.environment.domain)
         with open_assistant(config, folder, learning=False) as session:

@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.evaluation.exact.learning_curves import Stage
-from skillwrapper.evaluation.exact.references import DomainReference
 from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.problems.problems import Problem
 from skillwrapper.evaluation.problems.readers import StateReader
@@ -80,7 +80,7 @@ class Bench:
         folder: where the method may write.
         source: folder of the finished cell whose data the method learns from, if it asks for one.
         environment: the domain.
-        reference: an expert's knowledge of it, for baselines that are given it.
+        package: what else is known of it, for baselines that are given that.
         truth: labels without error, for finding causes and for exact figures.
     """
 
@@ -89,7 +89,7 @@ class Bench:
     folder: Path
     source: Path | None
     environment: EnumerableEnvironment
-    reference: DomainReference
+    package: DomainPackage
     truth: StateTruth
 
     def config(self) -> RunConfig:

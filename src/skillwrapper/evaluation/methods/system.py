@@ -85,7 +85,7 @@ class SystemMethod:
         for episode in episodes:
             recorded.add(bench.environment, episode)
             dataset.add(episode)
-            fit = fitter.fit(bench.reference.system_predicates)
+            fit = fitter.fit(bench.package.system_predicates)
             stages.append(Stage(len(dataset), fit.model))
         solver = bench.solver(fit.model, reader, reader)
         states = bench.truth.space.states

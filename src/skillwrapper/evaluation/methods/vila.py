@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final, Protocol
 
-from skillwrapper.domains.registry import domain_file
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.causes import Cause, Diagnosis
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
@@ -131,7 +130,7 @@ class VilaMethod:
         """Open the model."""
         config = bench.config()
         path = bench.folder / "run"
-        folder = RunFolder.create_or_resume(path, config, domain_file(config.domain))
+        folder = RunFolder.create_or_resume(path, config, bench.package.file)
         with open_assistant(config, folder, learning=False) as session:
             yield Prepared(
                 VilaSolver(

@@ -10,8 +10,8 @@ from functools import partial
 
 import numpy as np
 
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.exact.references import DomainReference
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.problems import (
     LONGEST_EASY,
@@ -40,12 +40,12 @@ class ProblemGenerator:
 
     Args:
         environment: the domain.
-        reference: tells structures and reasons.
+        package: tells structures and reasons.
         seed: decides every choice.
     """
 
     environment: EnumerableEnvironment
-    reference: DomainReference
+    package: DomainPackage
     seed: int
     _used: Counter[str] = field(default_factory=Counter, init=False)
     _taken: set[tuple[int, int]] = field(default_factory=set, init=False)
@@ -79,7 +79,7 @@ class ProblemGenerator:
             yield self._problem(kind, number, start, goal, length=length)
 
     def _impossible(self, count: int) -> Iterator[Problem]:
-        kinds = self.reference.impossible_kinds
+        kinds = self.package.impossibility.kinds
         for number in range(count):
             kind = kinds[number % len(kinds)]
             start, goal = self._draw(
@@ -88,7 +88,7 @@ class ProblemGenerator:
                 standard=False,
             )
             states = self._space.states
-            found = self.reference.impossibility(states[start], states[goal])
+            found = self.package.impossibility.explain(states[start], states[goal])
             reason = found[1] if found else ""
             yield self._problem(ProblemClass.IMPOSSIBLE, number, start, goal, reason=reason)
 
@@ -113,15 +113,17 @@ class ProblemGenerator:
 
     def _unreachable(self, kind: str, start: int) -> list[int]:
         states = self._space.states
+        explain = self.package.impossibility.explain
         reached = self._space.distances_from(start)
         return [
             goal
             for goal in np.flatnonzero(reached < 0).tolist()
-            if (self.reference.impossibility(states[start], states[goal]) or ("",))[0] == kind
+            if (explain(states[start], states[goal]) or ("",))[0] == kind
         ]
 
     def _least_used(self, goals: list[int]) -> int:
-        structure = {goal: self.reference.structure(self._space.states[goal]) for goal in goals}
+        structure_of = self.package.structure
+        structure = {goal: structure_of(self._space.states[goal]) for goal in goals}
         least = min(self._used[s] for s in structure.values())
         # A structure first, then a goal: else structures with many goals would come more often.
         open_structures = sorted({s for s in structure.values() if self._used[s] == least})

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from skillwrapper.domains.registry import domain_file
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.evaluation.study.contrastive_pairs import read_pairs
 from skillwrapper.evaluation.study.judge import MeaningJudge
 from skillwrapper.evaluation.study.meaning import Meaning
 from skillwrapper.evaluation.study.models import StudiedModel, open_studied
 from skillwrapper.symbols import Predicate
-
-PAIRS_FILE = "contrastive_pairs.yaml"
 
 
 @dataclass(frozen=True)
@@ -127,7 +125,7 @@ def study_invention(
         ProviderError: if a model does not answer.
     """
     judge = MeaningJudge(domain, states, seed)
-    path = pairs_file or domain_file(domain).with_name(PAIRS_FILE)
+    path = pairs_file or find_domain(domain).pairs
     pairs = read_pairs(path, judge.environment, judge.expert)
     proposals = []
     for model in models:

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from skillwrapper.domains.registry import make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.study.meaning import (
     Columns,
     Meaning,
@@ -47,18 +46,19 @@ class MeaningJudge:
     """
 
     def __init__(self, domain: str, states: int | None, seed: int) -> None:
-        environment = make_environment(domain)
+        package = find_domain(domain)
+        environment = package.make_environment()
         if not isinstance(environment, EnumerableEnvironment):
             raise ConfigurationError(f"{domain}: its states cannot be listed")
-        reference = reference_of(domain)
+        expert = package.expert
         chosen = list(environment.reachable_states())
         if states is not None and states < len(chosen):
             chosen = random.Random(f"invention study {seed}").sample(chosen, states)
         environment.reset(seed=_LAYOUT)
         self.environment: EnumerableEnvironment = environment
-        self.expert = reference.expert_model()
+        self.expert = expert.model
         self.states: tuple[Any, ...] = tuple(chosen)
-        self._true = [frozenset(reference.expert_atoms(state)) for state in chosen]
+        self._true = [frozenset(expert.atoms(state)) for state in chosen]
         self._pictures = [environment.observe_state(state) for state in chosen]
         self._assistant = truthful_assistant()
         self._read: dict[tuple[Predicate, str], Columns] = {}

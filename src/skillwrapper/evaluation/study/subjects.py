@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
-from skillwrapper.domains.registry import domain_names, make_environment
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError, UnknownNameError
-from skillwrapper.evaluation.exact.references import reference_of
 from skillwrapper.evaluation.study.conditions import Condition
 from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.evaluation.study.scoring import Readings
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.perception.questions import EvaluationQuestion
 from skillwrapper.runs.config import RunConfig
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.folder import CONFIG, RunFolder
 from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world.domain import Domain
@@ -99,8 +97,8 @@ class SimulatedSubject(Subject):
         pictures: int,
         seed: int,
     ) -> None:
-        self._name, self._truth = name, truth
-        self._usual = _enumerable(make_environment(name), name)
+        self._name, self._truth, self._package = name, truth, find_domain(name)
+        self._usual = _enumerable(self._package.make_environment(), name)
         super().__init__(self._usual.domain, predicates, origin)
         states = list(self._usual.reachable_states())
         chance = random.Random(f"perception study {seed}")
@@ -109,11 +107,13 @@ class SimulatedSubject(Subject):
 
     def supports(self, condition: Condition) -> bool:
         """Other arrangements always; other drawings if the domain has them."""
-        return not condition.drawing or condition.drawing in _DRAWINGS.get(self._name, {})
+        return not condition.drawing or condition.drawing in self._package.entries.drawings
 
     def samples(self, condition: Condition) -> tuple[Sample, ...]:
         """The sampled states, drawn under a condition."""
-        shown = _drawn(self._name, condition) if condition.drawing else self._usual
+        shown = self._usual
+        if condition.drawing:
+            shown = _enumerable(self._package.make_environment(condition.drawing), self._name)
         pictures, plain = [], []
         for number, state in enumerate(self._states):
             layout = _LAYOUT + (1 + number + 100_000 * self._seed if condition.layouts else 0)
@@ -191,19 +191,16 @@ def subject_of(
     Raises:
         UserError: if there is no such domain or run, or the labels are not usable.
     """
-    if Path(target).is_dir():
+    if (Path(target) / CONFIG).is_file():
         learned = LearnedRun.read(RunFolder.open(Path(target)))
         config: RunConfig = learned.folder.config()
         domain, predicates = learned.model.domain, learned.model.predicates
         name, truth = config.domain, None
         origin = f"learned predicates of {target}, true by the embedded model without noise"
     else:
-        if target not in domain_names():
-            raise UnknownNameError("domain or folder of a run", target, domain_names())
-        reference = reference_of(target)
-        expert = reference.expert_model()
-        domain, predicates, name = expert.domain, expert.predicates, target
-        truth = _set_of(reference.expert_atoms)
+        expert = find_domain(target).expert
+        domain, predicates, name = expert.model.domain, expert.model.predicates, target
+        truth = _set_of(expert.atoms)
         origin = f"expert's predicates of {target}, true by the simulator"
     if labels is not None:
         return LabelledSubject(domain, predicates, labels)
@@ -232,20 +229,3 @@ def _enumerable(environment: object, name: str) -> EnumerableEnvironment:
             f"{name}: its states cannot be listed; give pictures and their truth with --labels"
         )
     return environment
-
-
-def _drawn(name: str, condition: Condition) -> EnumerableEnvironment:
-    return _DRAWINGS[name][condition.drawing]()
-
-
-def _chalk_burger() -> EnumerableEnvironment:
-    from skillwrapper.domains.burger.environment import BurgerEnvironment  # noqa: PLC0415
-    from skillwrapper.domains.burger.style import CHALK  # noqa: PLC0415
-
-    return BurgerEnvironment(CHALK)
-
-
-# Each imports its simulator itself, as in ``domains.registry``.
-_DRAWINGS: Mapping[str, Mapping[str, Callable[[], EnumerableEnvironment]]] = MappingProxyType(
-    {"burger": MappingProxyType({"chalk": _chalk_burger})}
-)
