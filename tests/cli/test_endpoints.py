@@ -6,7 +6,6 @@ import json
 import socket
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,18 +16,15 @@ from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.assistants import Spending
-from skillwrapper.runs.config import ModelSettings, RunConfig
 from skillwrapper.runs.learn import learn
-from skillwrapper.vlm.limits import CallLimits
+from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
 from skillwrapper.vlm.protocol import Role
-from skillwrapper.vlm.retrying import RetryPolicy
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus
 
 KEY = "sk-planted-0815-secret"
-FAST = Spending(policy=RetryPolicy(first_wait=0.002, longest_wait=0.01))
+FAST = {"first_wait": 0.002, "longest_wait": 0.01}
 
 
 @pytest.fixture(autouse=True)
@@ -53,19 +49,20 @@ def direct(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     return model_of(out)
 
 
-def config(model: ModelSettings) -> RunConfig:
-    return RunConfig(
+def config(model: ModelSettings, **calls: object) -> RunSettings:
+    return RunSettings(
         domain="burger",
         seed=1,
         iterations=2,
         exploration=ExplorationSettings(budget=8),
         model=model,
+        calls=CallSettings.model_validate({**FAST, **calls}),
     )
 
 
-def over(server: VlmServer, parallel: int = 1) -> RunConfig:
-    how = AssistantSettings(parallel=parallel)
-    return config(ModelSettings(name="openai:embedded", base_url=server.url, assistant=how))
+def over(server: VlmServer, parallel: int = 1, **calls: object) -> RunSettings:
+    how = AskingSettings(parallel=parallel)
+    return config(ModelSettings(name="openai:embedded", base_url=server.url, asking=how), **calls)
 
 
 def model_of(run: Path) -> dict[str, bytes]:
@@ -89,7 +86,7 @@ def small(out: Path, server: VlmServer | None = None, model: str = "embedded") -
 def test_a_run_over_http_learns_the_same_and_keeps_no_key(
     server: VlmServer, direct: dict[str, bytes], tmp_path: Path
 ) -> None:
-    learn(over(server, parallel=4), tmp_path / "run", None, FAST)
+    learn(over(server, parallel=4), tmp_path / "run")
     assert model_of(tmp_path / "run") == direct
     assert server.calls > 20
     for path in (tmp_path / "run").rglob("*"):
@@ -97,10 +94,10 @@ def test_a_run_over_http_learns_the_same_and_keeps_no_key(
 
 
 def test_a_run_survives_faults(direct: dict[str, bytes], tmp_path: Path) -> None:
-    ways = (*PASSING, NONSENSE, NONSENSE)
+    ways = (*PASSING, *[NONSENSE] * 8)
     faults = FaultPlan(rate=0.3, kinds=ways, seed=1, retry_after=0.01, slowness=0.01)
     with VlmServer(EmbeddedModel(1), ServerSettings(faults=faults)) as server:
-        learn(over(server, parallel=4), tmp_path / "run", None, FAST)
+        learn(over(server, parallel=4), tmp_path / "run")
     assert model_of(tmp_path / "run") == direct
     with CallStore(tmp_path / "run" / "calls.sqlite", read_only=True) as store:
         kinds = {call.status for call in store.calls()}
@@ -113,10 +110,10 @@ def test_a_run_survives_faults(direct: dict[str, bytes], tmp_path: Path) -> None
 def test_a_shared_store_saves_every_call(
     server: VlmServer, direct: dict[str, bytes], tmp_path: Path
 ) -> None:
-    spending = replace(FAST, shared=tmp_path / "shared.sqlite")
-    learn(over(server), tmp_path / "first", None, spending)
+    shared = tmp_path / "shared.sqlite"
+    learn(over(server, shared_store=shared), tmp_path / "first")
     before = server.calls
-    learn(over(server), tmp_path / "second", None, spending)
+    learn(over(server, shared_store=shared), tmp_path / "second")
     assert server.calls == before
     assert model_of(tmp_path / "second") == direct
 
@@ -125,14 +122,14 @@ def test_a_limit_stops_and_the_run_goes_on(
     server: VlmServer, direct: dict[str, bytes], tmp_path: Path
 ) -> None:
     out = tmp_path / "run"
-    learn(over(server), tmp_path / "whole", None, FAST)
+    learn(over(server), tmp_path / "whole")
     whole = server.calls
-    third = CallLimits(calls=whole // 3)
+    third = whole // 3
     for _ in range(2):
         with pytest.raises(LimitReachedError, match="--max-calls"):
-            learn(over(server), out, None, replace(FAST, limits=third))
+            learn(over(server, max_calls=third), out)
     assert server.calls == whole + 2 * (whole // 3)
-    learn(over(server, parallel=2), out, None, FAST)
+    learn(over(server, parallel=2), out)
     assert server.calls == 2 * whole  # nothing was asked twice
     assert model_of(out) == direct
 
@@ -142,7 +139,7 @@ def test_roles_may_have_models_of_their_own(
 ) -> None:
     roles = {Role.EVALUATE: "openai:embedded"}
     mixed = config(ModelSettings(roles=roles, base_url=server.url))
-    learn(mixed, tmp_path / "run", None, FAST)
+    learn(mixed, tmp_path / "run")
     with CallStore(tmp_path / "run" / "calls.sqlite", read_only=True) as store:
         asked = {(call.role, call.model) for call in store.calls()}
     assert (Role.EVALUATE, "openai:embedded") in asked
@@ -171,7 +168,7 @@ def test_calls_are_listed_and_added_up(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    learn(over(server), tmp_path / "run", None, FAST)
+    learn(over(server), tmp_path / "run")
     run = str(tmp_path / "run")
     assert command(monkeypatch, "calls", run, "--json", "--last", "0") == 0
     told = json.loads(capsys.readouterr().out)

@@ -18,12 +18,12 @@ from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.openai_model import OpenAIModel, OpenAISettings
 from skillwrapper.vlm.protocol import VisionLanguageModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 
 
 def ask_everything(model: VisionLanguageModel, parallel: int = 1) -> list[object]:
     world = kitchen()
-    helper = Assistant(ModelSet.of(model), settings=AssistantSettings(parallel=parallel))
+    helper = Assistant(ModelSet.of(model), settings=AskingSettings(parallel=parallel))
     answers: list[object] = []
     answers += helper.evaluate(
         [
@@ -69,7 +69,7 @@ def test_a_wave_takes_as_long_as_its_slowest_chain_of_calls() -> None:
     ]
     with VlmServer(embedded_model(), ServerSettings(latency=0.2)) as server:
         client = OpenAIModel(OpenAISettings(SEEING, base_url=server.url))
-        helper = Assistant(ModelSet.of(client), settings=AssistantSettings(parallel=8))
+        helper = Assistant(ModelSet.of(client), settings=AskingSettings(parallel=8))
         helper.evaluate(questions[:1])
         began = time.perf_counter()
         helper.evaluate(questions)

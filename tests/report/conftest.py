@@ -4,15 +4,15 @@ import pytest
 
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.learning.settings import LearningSettings
-from skillwrapper.runs.config import ModelSettings, RunConfig
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learn import learn
+from skillwrapper.runs.settings import ModelSettings, RunSettings
 
 
 @pytest.fixture(scope="session")
 def run(tmp_path_factory: pytest.TempPathFactory) -> RunFolder:
     """A short, noisy run of the embedded model."""
-    config = RunConfig(
+    config = RunSettings(
         domain="burger",
         seed=2,
         iterations=3,

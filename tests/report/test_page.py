@@ -7,9 +7,9 @@ from outside_links import parse
 
 from skillwrapper.errors import RunFolderError
 from skillwrapper.report import ReportSettings, render_report, write_report
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.vlm.protocol import Role, Usage
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, StoredCall
@@ -129,7 +129,7 @@ def test_a_curve_that_is_none_is_refused(copy: RunFolder) -> None:
 
 
 def test_a_run_without_a_finished_iteration_is_refused(tmp_path: Path, run: RunFolder) -> None:
-    config = RunConfig(domain="burger")
+    config = RunSettings(domain="burger")
     empty = RunFolder.create_or_resume(tmp_path / "new", config, run.path / "domain.yaml")
     with pytest.raises(RunFolderError, match="no iteration is finished"):
         render_report(empty)

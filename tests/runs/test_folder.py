@@ -10,11 +10,11 @@ from lamps import DOMAIN_YAML, domain_file, seen
 
 from skillwrapper.errors import ConfigurationError, RunFolderError
 from skillwrapper.files.writing import write_json
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.world import Observation, Picture
 
-CONFIG = RunConfig(domain="lamps", seed=3)
+CONFIG = RunSettings(domain="lamps", seed=3)
 
 
 class CrashError(Exception):

@@ -12,14 +12,14 @@ from lamps import LampAssistant, LampEnvironment, domain_file, lamp_domain
 
 from skillwrapper.errors import ModelUnavailableError, RobotError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.events import EventKind, RunEvent
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.runs.loop import LearningResult, LearningRun
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom
 
-CONFIG = RunConfig(
+CONFIG = RunSettings(
     domain="lamps",
     iterations=3,
     exploration=ExplorationSettings(budget=8, least_length=8, candidates=3),
@@ -29,7 +29,7 @@ CONFIG = RunConfig(
 class Setting:
     """A run in a folder of its own."""
 
-    def __init__(self, path: Path, config: RunConfig = CONFIG) -> None:
+    def __init__(self, path: Path, config: RunSettings = CONFIG) -> None:
         self.path = path
         self.config = config
         self.events: list[RunEvent] = []

@@ -9,9 +9,9 @@ import pytest
 from lamps import LampEnvironment, domain_file, lamp_domain, seen
 
 from skillwrapper.errors import RobotError, RunFolderError
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.recorder import EpisodeRecorder, read_episode
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.world import Domain, Episode, Observation, Scene, SkillInstance, Transition
 
 LIGHT_LEFT = SkillInstance("Light", ("hand", "left"))
@@ -27,7 +27,7 @@ def domain(tmp_path: Path) -> Domain:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> RunFolder:
-    config = RunConfig(domain="lamps")
+    config = RunSettings(domain="lamps")
     return RunFolder.create_or_resume(tmp_path / "run", config, domain_file(tmp_path))
 
 
@@ -104,7 +104,7 @@ def test_a_partial_episode_is_continued(
     assert environment.executed == list(SEQUENCE)
     assert resumed.told == list(episode.transitions[skills:])
     whole = RunFolder.create_or_resume(
-        tmp_path / "whole", RunConfig(domain="lamps"), domain_file(tmp_path)
+        tmp_path / "whole", RunSettings(domain="lamps"), domain_file(tmp_path)
     )
     assert Run(whole, LampEnvironment(domain))() == episode
     assert whole.episode(1).read_bytes() == folder.episode(1).read_bytes()

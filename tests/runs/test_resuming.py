@@ -10,7 +10,6 @@ import sys
 import threading
 import time
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -20,19 +19,16 @@ from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError, ModelNotFoundError, RunFolderError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.assistants import Spending
-from skillwrapper.runs.config import ModelSettings, RunConfig
 from skillwrapper.runs.folder import held
 from skillwrapper.runs.learn import learn
-from skillwrapper.vlm.limits import CallLimits
+from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest
-from skillwrapper.vlm.retrying import RetryPolicy
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus
 from skillwrapper.vlm.wrapping import ModelWrapper
 
-FAST = Spending(policy=RetryPolicy(first_wait=0.002, longest_wait=0.01))
+FAST = {"first_wait": 0.002, "longest_wait": 0.01}
 FAULTS = FaultPlan(
     rate=0.3, kinds=(*PASSING, *[NONSENSE] * 4), seed=2, retry_after=0.01, slowness=0.01
 )
@@ -62,15 +58,16 @@ def _environment(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name.lower(), raising=False)
 
 
-def config(url: str | None = None) -> RunConfig:
-    how = AssistantSettings(parallel=4)
-    model = ModelSettings(name="openai:embedded", base_url=url, assistant=how)
-    return RunConfig(
+def config(url: str | None = None, **calls: object) -> RunSettings:
+    how = AskingSettings(parallel=4)
+    model = ModelSettings(name="openai:embedded", base_url=url, asking=how)
+    return RunSettings(
         domain="burger",
         seed=1,
         iterations=2,
         exploration=ExplorationSettings(budget=12),
         model=model if url else ModelSettings(),
+        calls=CallSettings.model_validate({**FAST, **calls}),
     )
 
 
@@ -94,9 +91,8 @@ def test_a_resumed_run_goes_the_way_it_went_whatever_the_model_would_say_now(
     with VlmServer(model) as server:
         sessions = 0
         for calls in (4, 8, 8, None):
-            spending = replace(FAST, limits=CallLimits(calls=calls), shared=shared)
             try:
-                learn(config(server.url), run, None, spending)
+                learn(config(server.url, max_calls=calls, shared_store=shared), run)
             except LimitReachedError:
                 sessions += 1
         assert sessions == 3
@@ -106,8 +102,8 @@ def test_a_resumed_run_goes_the_way_it_went_whatever_the_model_would_say_now(
         assert set(replies_by_key(run).values()) == {1}
         assert sum(replies_by_key(run).values()) == asked
 
-        learn(config(server.url), run, None, FAST)
-        learn(config(server.url), tmp_path / "again", None, replace(FAST, shared=shared))
+        learn(config(server.url), run)
+        learn(config(server.url, shared_store=shared), tmp_path / "again")
         assert model.asked == asked
     recording = ModelSettings(name=f"recorded:{run}")
     learn(config().model_copy(update={"model": recording}), tmp_path / "replay")
@@ -139,16 +135,16 @@ def test_a_mistake_that_only_the_server_notices_leaves_nothing_behind(tmp_path: 
         settings = ModelSettings(name="openai:embeddde", base_url=server.url)
         wrong = config().model_copy(update={"model": settings})
         with pytest.raises(ModelNotFoundError):
-            learn(wrong, run, None, FAST)
+            learn(wrong, run)
         assert not run.exists()
         run.mkdir()
         with pytest.raises(ModelNotFoundError):
-            learn(wrong, run, None, FAST)
+            learn(wrong, run)
         assert not list(run.iterdir())
-        learn(config(server.url), run, None, FAST)
+        learn(config(server.url), run)
         kept = sorted(run.iterdir())
         with pytest.raises(RunFolderError, match="other settings"):
-            learn(wrong, run, None, FAST)
+            learn(wrong, run)
     assert sorted(run.iterdir()) == kept
 
 
@@ -156,9 +152,9 @@ _LEARNER = """
 import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-from test_resuming import FAST, config
+from test_resuming import config
 from skillwrapper.runs.learn import learn
-learn(config(sys.argv[2]), Path(sys.argv[3]), None, FAST)
+learn(config(sys.argv[2]), Path(sys.argv[3]))
 """
 
 
@@ -175,6 +171,6 @@ def test_a_run_that_is_killed_among_faults_ends_as_if_nothing_had_been(tmp_path:
             os.kill(process.pid, signal.SIGKILL)
             assert process.wait() == -signal.SIGKILL
         assert not (run / "model").exists()
-        learn(config(server.url), run, None, FAST)
+        learn(config(server.url), run)
     assert model_of(run) == model_of(tmp_path / "direct")
     assert set(replies_by_key(run).values()) == {1}

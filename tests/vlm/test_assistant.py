@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 
 import pytest
+from pydantic import ValidationError
 from scripted import ScriptedModel, section
 
 from skillwrapper.errors import ConfigurationError, ModelUnavailableError
@@ -21,7 +22,7 @@ from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.evaluation import majority
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelRequest, Role
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.world import Domain, Observation, Picture, SkillInstance, Transition
 
 HOLDING = Predicate("holding", ("robot", "pickupable"), "the item is in the hand")
@@ -37,7 +38,7 @@ def assistant(
     answer: Callable[[ModelRequest], str], **settings: int | float
 ) -> tuple[Assistant, ScriptedModel]:
     model = ScriptedModel(answer)
-    made = AssistantSettings(**settings)  # type: ignore[arg-type]
+    made = AskingSettings(**settings)  # type: ignore[arg-type]
     return Assistant(ModelSet.of(model), settings=made), model
 
 
@@ -387,8 +388,8 @@ def test_every_role_needs_a_model() -> None:
     ("name", "value"), [("parallel", 0), ("batch_size", 0), ("reasks", -1), ("margin", 2.0)]
 )
 def test_settings_are_checked(name: str, value: float) -> None:
-    with pytest.raises(ConfigurationError, match=name):
-        AssistantSettings(**{name: value})  # type: ignore[arg-type]
+    with pytest.raises(ValidationError, match=name):
+        AskingSettings(**{name: value})  # type: ignore[arg-type]
 
 
 class ForgettingModel(ScriptedModel):
@@ -401,7 +402,7 @@ class ForgettingModel(ScriptedModel):
 def test_models_that_keep_replies_are_told_which_were_of_no_use(burger: Domain) -> None:
     replies = iter(["nothing", "Pick(robot, patty)", "A robot.", "No idea.", "I will not."])
     model = ForgettingModel(lambda _: next(replies))
-    helper = Assistant(ModelSet.of(model), settings=AssistantSettings(unusable_reasks=1))
+    helper = Assistant(ModelSet.of(model), settings=AskingSettings(unusable_reasks=1))
 
     helper.propose_sequences(proposal(burger))
     helper.evaluate([evaluation(burger)])

@@ -13,11 +13,11 @@ def _complete(incomplete: str) -> list[str]:
     return [name for name in domain_names() if name.startswith(incomplete)]
 
 
-DomainArgument = Annotated[
-    str,
-    typer.Argument(
-        help="A bundled or installed domain, the folder of one, or package.module:name.",
-        metavar="DOMAIN",
-        autocompletion=_complete,
-    ),
-]
+_ARGUMENT = typer.Argument(
+    help="A bundled or installed domain, the folder of one, or package.module:name.",
+    metavar="DOMAIN",
+    autocompletion=_complete,
+    show_default=False,
+)
+DomainArgument = Annotated[str, _ARGUMENT]
+OptionalDomainArgument = Annotated[str | None, _ARGUMENT]

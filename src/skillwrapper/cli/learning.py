@@ -7,34 +7,26 @@ from typing import Annotated
 
 import typer
 
-from skillwrapper.cli.domain_argument import DomainArgument
+from skillwrapper.cli.domain_argument import OptionalDomainArgument
 from skillwrapper.cli.estimates import print_estimate
-from skillwrapper.cli.model_options import (
-    BaseUrlOption,
-    MarginOption,
-    MaxCallsOption,
-    MaxCostOption,
-    MaxSecondsOption,
-    ModelOption,
-    ParallelOption,
-    PromptsOption,
-    RolesOption,
-    StoreOption,
-    Until,
-    VotesOption,
-    parse_roles,
-)
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.progress import RunProgress
-from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.learning.settings import LearningSettings
-from skillwrapper.runs.assistants import Spending, check_models
-from skillwrapper.runs.config import ModelSettings, RunConfig
+from skillwrapper.cli.setting_options import (
+    BaseUrlOption,
+    ConfigOption,
+    PromptsOption,
+    RolesOption,
+    SetOption,
+    UntilOption,
+    option,
+    options_given,
+    run_settings,
+)
 from skillwrapper.runs.estimate import estimate_run
 from skillwrapper.runs.learn import learn as run_learning
 from skillwrapper.runs.loop import LearningResult
-from skillwrapper.vlm.limits import CallLimits
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.runs.models import check_models
+from skillwrapper.runs.settings import RunSettings
 
 
 def register(app: typer.Typer) -> None:
@@ -43,56 +35,46 @@ def register(app: typer.Typer) -> None:
 
 
 def learn(
-    domain: DomainArgument,
+    context: typer.Context,
     out: Annotated[Path, typer.Option(help="Folder of the run; an existing run is resumed.")],
-    seed: Annotated[int, typer.Option(min=0, help="Decides everything left to chance.")] = 0,
-    iterations: Annotated[int, typer.Option(min=1, help="How often to explore and learn.")] = 5,
-    budget: Annotated[int, typer.Option(min=1, help="Skills executed in an iteration.")] = 15,
-    candidates: Annotated[int, typer.Option(min=1, help="Sequences asked for at once.")] = 5,
-    threshold: Annotated[float, typer.Option(min=0.0, max=1.0, help="Least score h.")] = 0.6,
-    model: ModelOption = "embedded",
+    domain: OptionalDomainArgument = None,
+    seed: Annotated[int | None, option("seed")] = None,
+    iterations: Annotated[int | None, option("iterations")] = None,
+    budget: Annotated[int | None, option("budget")] = None,
+    candidates: Annotated[int | None, option("candidates")] = None,
+    threshold: Annotated[float | None, option("threshold")] = None,
+    model: Annotated[str | None, option("model")] = None,
     base_url: BaseUrlOption = None,
     role: RolesOption = None,
     prompts: PromptsOption = None,
-    noise: Annotated[str, typer.Option(help="Noise of the embedded model: none, gpt5.")] = "none",
-    parallel: ParallelOption = 1,
-    votes: VotesOption = 1,
-    margin: MarginOption = 0.0,
-    store: StoreOption = None,
-    max_calls: MaxCallsOption = None,
-    max_cost: MaxCostOption = None,
-    max_seconds: MaxSecondsOption = None,
-    until: Annotated[
-        Until | None, typer.Option(help="Stop when an iteration brings nothing new.")
-    ] = None,
+    noise: Annotated[str | None, option("noise")] = None,
+    parallel: Annotated[int | None, option("parallel")] = None,
+    votes: Annotated[int | None, option("votes")] = None,
+    margin: Annotated[float | None, option("margin")] = None,
+    timeout: Annotated[float | None, option("timeout")] = None,
+    temperature: Annotated[float | None, option("temperature")] = None,
+    max_output_tokens: Annotated[int | None, option("max_output_tokens")] = None,
+    reasoning_effort: Annotated[str | None, option("reasoning_effort")] = None,
+    image_size: Annotated[int | None, option("image_size")] = None,
+    store: Annotated[Path | None, option("store")] = None,
+    max_calls: Annotated[int | None, option("max_calls")] = None,
+    max_cost: Annotated[float | None, option("max_cost")] = None,
+    max_seconds: Annotated[float | None, option("max_seconds")] = None,
+    until: UntilOption = None,
+    config: ConfigOption = None,
+    assignments: SetOption = None,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Estimate what it takes; do nothing.")
     ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Run skills, look, invent predicates and learn operators; resumes an existing run."""
-    config = RunConfig(
-        domain=domain,
-        seed=seed,
-        iterations=iterations,
-        until_converged=until is Until.CONVERGED,
-        exploration=ExplorationSettings(budget=budget, candidates=candidates),
-        learning=LearningSettings(threshold=threshold),
-        model=ModelSettings(
-            name=model,
-            roles=parse_roles(role or ()),
-            noise=noise,
-            base_url=base_url,
-            prompts=str(prompts.resolve()) if prompts else None,
-            assistant=AssistantSettings(parallel=parallel, votes=votes, margin=margin),
-        ),
-    )
+    settings = run_settings(config, options_given(context.params), assignments or ())
     if dry_run:
-        _estimate(config, as_json)
+        _estimate(settings, as_json)
         return
-    spending = Spending(CallLimits(max_calls, max_cost, max_seconds), store)
     with RunProgress(messages()) as progress:
-        result = run_learning(config, out, progress, spending)
+        result = run_learning(settings, out, progress)
     if as_json:
         calls = {"model_calls": progress.calls, "calls_made": progress.calls_made}
         print_json({"run": str(out), **calls, **result.to_json()})
@@ -100,9 +82,9 @@ def learn(
         _print_result(out, result)
 
 
-def _estimate(config: RunConfig, as_json: bool) -> None:
-    check_models(config)
-    estimate = estimate_run(config)
+def _estimate(settings: RunSettings, as_json: bool) -> None:
+    check_models(settings)
+    estimate = estimate_run(settings)
     if as_json:
         print_json(estimate.to_json())
     else:

@@ -15,6 +15,7 @@ from skillwrapper.cli import (
     planning,
     problems,
     reporting,
+    settings,
     studies,
 )
 from skillwrapper.cli.output import messages
@@ -37,6 +38,7 @@ _GROUPS = (
     reporting,
     studies,
     model_calls,
+    settings,
 )
 for group in _GROUPS:
     group.register(app)

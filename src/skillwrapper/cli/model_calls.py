@@ -11,14 +11,14 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from skillwrapper.cli.model_options import BaseUrlOption, PromptsOption
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.setting_options import BaseUrlOption, PromptsOption
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FAULTS, FaultPlan
-from skillwrapper.runs.config import ModelSettings
 from skillwrapper.runs.doctor import examine
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, CallTotals, StoredCall
@@ -72,8 +72,7 @@ def doctor(
 ) -> None:
     """Try a model with a few calls: key, endpoint, pictures, and whether its replies are of use."""
     findings = []
-    folder = str(prompts) if prompts else None
-    for finding in examine(ModelSettings(name=model, base_url=base_url, prompts=folder)):
+    for finding in examine(ModelSettings(name=model, base_url=base_url, prompts=prompts)):
         findings.append(finding)
         if not as_json:
             mark = "[green]ok[/]   " if finding.passed else "[red]wrong[/]"

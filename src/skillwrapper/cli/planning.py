@@ -17,9 +17,9 @@ from skillwrapper.planning.gif import save_gif
 from skillwrapper.planning.goals import Goal, goal_from_state, parse_goal
 from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.planning.result import PlanningResult, PlanningStatus
-from skillwrapper.runs.assistants import open_assistant
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation, load_picture
 
@@ -54,7 +54,7 @@ def plan(
     learned = LearnedRun.read(RunFolder.open(run))
     start = Observation((load_picture(init),))
     planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
-    with open_assistant(learned.folder.config(), learned.folder, learning=False) as session:
+    with open_session(learned.folder.config(), learned.folder.calls, learning=False) as session:
         reader = GoalReader(learned, TruthTable(learned.model.domain, session.assistant))
         found = reader.plan(planner, start, reader.read(goal, positive=positive), keep)
     if as_json:
@@ -78,7 +78,7 @@ def solve(
     environment = find_domain(learned.folder.config().domain).make_environment()
     planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
     target = gif or run / "solve.gif"
-    with open_assistant(learned.folder.config(), learned.folder, learning=False) as session:
+    with open_session(learned.folder.config(), learned.folder.calls, learning=False) as session:
         reader = GoalReader(learned, TruthTable(learned.model.domain, session.assistant))
         wanted = reader.read(goal, positive=positive)
         found = reader.plan(planner, environment.reset(seed=init_seed), wanted, None)

@@ -12,9 +12,9 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from skillwrapper.runs.assistants import Session
 from skillwrapper.runs.events import EventKind, RunEvent
 from skillwrapper.runs.learn import Onlooker
+from skillwrapper.runs.model_sessions import CallCounter
 
 _SHOWN_DECISIONS = 8
 _MARKS = {
@@ -47,7 +47,7 @@ class RunProgress(Onlooker):
 
     def __init__(self, console: Console) -> None:
         self._console = console
-        self._session: Session | None = None
+        self._counter: CallCounter | None = None
         self._status = _Status()
         self._live = Live(
             console=console, refresh_per_second=8, transient=True, get_renderable=self._draw
@@ -69,16 +69,16 @@ class RunProgress(Onlooker):
     @property
     def calls(self) -> int:
         """How many model calls were answered so far."""
-        return self._session.calls if self._session else 0
+        return self._counter.answered if self._counter else 0
 
     @property
     def calls_made(self) -> int:
         """How many calls a model was asked; the rest came from a store."""
-        return self._session.budget.calls if self._session else 0
+        return self._counter.made if self._counter else 0
 
-    def opened(self, session: Session) -> None:
+    def opened(self, counter: CallCounter) -> None:
         """Remember where calls are counted."""
-        self._session = session
+        self._counter = counter
 
     def happened(self, event: RunEvent) -> None:
         """Take note of an event."""

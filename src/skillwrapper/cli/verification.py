@@ -22,8 +22,8 @@ from skillwrapper.evaluation.exact.state_truth import TRUTH_LAYOUT, StateTruth
 from skillwrapper.evaluation.exact.verification import Verification, verify_labels
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.runs.assistants import open_assistant
 from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.world.environment import EnumerableEnvironment
 
 _CURVE_COLUMNS = (
@@ -72,7 +72,7 @@ def run_verification(
         )
     layout = TRUTH_LAYOUT if layout_seed is None else layout_seed
     with (
-        open_assistant(config, learned.folder, learning=False) as session,
+        open_session(config, learned.folder.calls, learning=False) as session,
         console.status("reading the pictures of all reachable states"),
     ):
         table = TruthTable(environment.domain, session.assistant)

@@ -8,30 +8,56 @@ from pydantic import BaseModel, ConfigDict, Field
 
 
 class ExplorationSettings(BaseModel):
-    """How the next skill sequence is found (paper, Section 3.1; DESIGN.md D16).
-
-    Attributes:
-        budget: skills executed in one iteration.
-        candidates: sequences asked for at once.
-        least_length: a sequence is at least so long, even if the budget is smaller.
-        target_ratio: wanted share of predicted successes (the paper's r*).
-        pairs: whether coverage counts pairs of skill instances or of skills.
-        choice: ``pareto`` as in the paper; ``uniform`` takes any candidate (No Heuristic);
-            ``random`` asks no model and draws skill instances (Random Exploration).
-        named_pairs: how many least explored pairs the prompt names.
-        scarce_successes: the prompt names skills with fewer successes than this.
-    """
+    """How the next skill sequence is found (paper, Section 3.1; docs/semantics.md D16)."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    budget: int = Field(default=15, ge=1)
-    candidates: int = Field(default=5, ge=1)
-    least_length: int = Field(default=15, ge=1)
-    target_ratio: float = Field(default=0.5, ge=0.0, le=1.0)
-    pairs: Literal["instances", "skills"] = "instances"
-    choice: Literal["pareto", "uniform", "random"] = "pareto"
-    named_pairs: int = Field(default=12, ge=0)
-    scarce_successes: int = Field(default=3, ge=0)
+    budget: int = Field(
+        default=15,
+        ge=1,
+        description="skills executed in one iteration",
+        json_schema_extra={"unit": "skills"},
+    )
+    candidates: int = Field(
+        default=5,
+        ge=1,
+        description="sequences asked for at once",
+        json_schema_extra={"unit": "sequences"},
+    )
+    least_length: int = Field(
+        default=15,
+        ge=1,
+        description="a sequence is at least so long, even if the budget is smaller",
+        json_schema_extra={"unit": "skills"},
+    )
+    target_ratio: float = Field(
+        default=0.5,
+        ge=0.0,
+        le=1.0,
+        description="wanted share of predicted successes (the paper's r*)",
+        json_schema_extra={"unit": "share of the skills"},
+    )
+    pairs: Literal["instances", "skills"] = Field(
+        default="instances",
+        description="whether coverage counts pairs of skill instances or of skills",
+    )
+    choice: Literal["pareto", "uniform", "random"] = Field(
+        default="pareto",
+        description="pareto as in the paper; uniform takes any candidate (No Heuristic); random "
+        "asks no model and draws skill instances (Random Exploration)",
+    )
+    named_pairs: int = Field(
+        default=12,
+        ge=0,
+        description="how many least explored pairs the prompt names",
+        json_schema_extra={"unit": "pairs"},
+    )
+    scarce_successes: int = Field(
+        default=3,
+        ge=0,
+        description="the prompt names skills with fewer successes than this",
+        json_schema_extra={"unit": "successes"},
+    )
 
     @property
     def length(self) -> int:

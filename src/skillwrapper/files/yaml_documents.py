@@ -82,6 +82,18 @@ class YamlDocument:
             raise ConfigurationError(f"{self.place(mistake.location)}: {mistake.text}") from error
 
 
+def parse_value(text: str, where: str) -> Any:
+    """A single value as it would stand in a YAML file.
+
+    Raises:
+        ConfigurationError: if it is no YAML.
+    """
+    try:
+        return yaml.load(text, Loader=_Loader)
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        raise ConfigurationError(f"{where}: expected a value as in YAML, got '{text}'") from error
+
+
 def compose(text: str) -> yaml.Node | None:
     """The nodes of a YAML text, with their lines; JSON is YAML too."""
     root: yaml.Node | None = yaml.compose(text, Loader=_Loader)

@@ -24,9 +24,9 @@ from skillwrapper.report.views import (
     view_skills,
     view_violations,
 )
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import CONFIG, RunFolder
 from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.pddl import print_domain
 
@@ -59,7 +59,7 @@ class ReportContents:
         opened: number of the episode that is shown unfolded; None if there is none.
     """
 
-    config: RunConfig
+    config: RunSettings
     settings: dict[str, Any]
     made_with: dict[str, Any]
     config_text: str

@@ -12,14 +12,14 @@ from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.invention.questions import InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationQuestion
-from skillwrapper.runs.assistants import make_model, open_prompts
-from skillwrapper.runs.config import ModelSettings
+from skillwrapper.runs.models import open_model, open_prompts
+from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.observation import Observation
@@ -27,7 +27,7 @@ from skillwrapper.world.skills import SkillInstance
 from skillwrapper.world.types import Object
 
 _ATTEMPTS = RetryPolicy(attempts=3, first_wait=0.5, longest_wait=2.0, longest_asked_wait=10.0)
-_HOW = AssistantSettings(reasks=0, unusable_reasks=1)
+_HOW = AskingSettings(reasks=0, unusable_reasks=1)
 _CHOOSE_ANOTHER = "reword its template (learn --prompts), or choose another model"
 
 
@@ -64,7 +64,7 @@ def examine(settings: ModelSettings) -> Iterator[Finding]:
         settings: which model, where, and with which templates.
     """
     try:
-        model = make_model(settings, settings.name, 0)
+        model = open_model(settings.name, settings, 0)
     except (ProviderError, UserError) as error:
         yield Finding("name and key", False, str(error))
         return

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
-from skillwrapper.runs.config import ModelSettings, RunConfig
+from skillwrapper.runs.settings import ModelSettings, RunSettings
 from skillwrapper.vlm.openai_connection import endpoint_address
 from skillwrapper.vlm.prices import CallCost, nothing, price_of
 from skillwrapper.vlm.protocol import Role
@@ -96,14 +96,14 @@ class Estimate:
         }
 
 
-def estimate_run(config: RunConfig) -> Estimate:
+def estimate_run(config: RunSettings) -> Estimate:
     """Estimate calls, tokens, cost and executions of a run; asks and executes nothing."""
     executions = config.iterations * config.exploration.budget
     low, high = (
         round(executions * share * (_FIRST_READINGS + _READINGS * questions))
         for share, questions in zip(_PICTURES, _INVENTIONS, strict=True)
     )
-    votes = config.model.assistant.votes
+    votes = config.model.asking.votes
     readings = (low * votes, high * votes)
     calls = {
         Role.PROPOSE: (config.iterations, config.iterations),

@@ -24,8 +24,8 @@ import yaml
 from skillwrapper.errors import RunFolderError
 from skillwrapper.files.writing import is_leftover, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.provenance import provenance
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.world.observation import Observation, Picture
 
 CONFIG = "config.yaml"
@@ -42,7 +42,7 @@ class RunFolder:
     path: Path
 
     @classmethod
-    def create_or_resume(cls, path: Path, config: RunConfig, domain_file: Path) -> RunFolder:
+    def create_or_resume(cls, path: Path, config: RunSettings, domain_file: Path) -> RunFolder:
         """A new folder, or the folder of a run with the same configuration.
 
         Raises:
@@ -91,13 +91,13 @@ class RunFolder:
         if not kept.exists():
             write_atomically(kept, domain_file.read_text(encoding="utf-8"))
 
-    def config(self) -> RunConfig:
+    def config(self) -> RunSettings:
         """What the run was asked to do.
 
         Raises:
             ConfigurationError: if the file was damaged.
         """
-        return YamlDocument.read(self.path / CONFIG).part("run").validate(RunConfig)
+        return YamlDocument.read(self.path / CONFIG).part("run").validate(RunSettings)
 
     @property
     def model(self) -> Path:

@@ -8,29 +8,29 @@ from pathlib import Path
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ProviderError, RunFolderError, UserError
-from skillwrapper.runs.assistants import Session, Spending, check_models, open_assistant
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.events import RunEvent
 from skillwrapper.runs.folder import CONFIG, RunFolder, held
 from skillwrapper.runs.loop import LearningResult, LearningRun
+from skillwrapper.runs.model_sessions import CallCounter, open_session
+from skillwrapper.runs.models import check_models
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.vlm.store import CallStore
 
 
 class Onlooker:
     """Told of what happens in a run; does nothing, so that others need not do everything."""
 
-    def opened(self, session: Session) -> None:
-        """The models are ready; the session tells how often they were asked."""
+    def opened(self, counter: CallCounter) -> None:
+        """The models are ready; the counter tells how often they were asked."""
 
     def happened(self, event: RunEvent) -> None:
         """Something happened."""
 
 
 def learn(
-    config: RunConfig,
+    config: RunSettings,
     out: Path,
     onlooker: Onlooker | None = None,
-    spending: Spending | None = None,
 ) -> LearningResult:
     """Run Algorithm 1 in a folder, or go on with a run that is there.
 
@@ -38,7 +38,6 @@ def learn(
         config: what to do.
         out: the folder.
         onlooker: told of what happens.
-        spending: limits, repetitions and a shared call store; None for the defaults.
 
     Raises:
         UserError: if the configuration or the folder cannot be used, also because another
@@ -55,14 +54,14 @@ def learn(
         folder = RunFolder.create_or_resume(out, config, package.file)
         _check_length(folder, config)
         try:
-            return _learn(config, package, folder, onlooker or Onlooker(), spending)
+            return _learn(config, package, folder, onlooker or Onlooker())
         except (UserError, ProviderError):
             if is_new and not _has_records(folder):
                 folder.discard_beginning()  # so that the mistake can be mended under this name
             raise
 
 
-def _check_length(folder: RunFolder, config: RunConfig) -> None:
+def _check_length(folder: RunFolder, config: RunSettings) -> None:
     """A shorter run would put its model in the place of the longer one's."""
     finished = folder.finished_iterations()
     if config.iterations < finished:
@@ -83,20 +82,16 @@ def _has_records(folder: RunFolder) -> bool:
 
 
 def _learn(
-    config: RunConfig,
-    package: DomainPackage,
-    folder: RunFolder,
-    onlooker: Onlooker,
-    spending: Spending | None,
+    config: RunSettings, package: DomainPackage, folder: RunFolder, onlooker: Onlooker
 ) -> LearningResult:
     with (
         closing(package.make_environment()) as environment,
-        open_assistant(config, folder, spending=spending) as session,
+        open_session(config, folder.calls) as session,
     ):
 
         def watch(event: RunEvent) -> None:
-            session.note(event)
+            session.counter.iteration = event.iteration
             onlooker.happened(event)
 
-        onlooker.opened(session)
+        onlooker.opened(session.counter)
         return LearningRun(folder, config, environment, session.assistant, watch).run()

@@ -35,10 +35,10 @@ from skillwrapper.runs.artifacts import (
     write_learned_model,
     write_truth_table,
 )
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.events import EventKind, RunEvent, Watcher
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.recorder import EpisodeRecorder
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.dataset import Dataset
 from skillwrapper.vlm.assistant import Assistant
@@ -108,7 +108,7 @@ class LearningRun:
     def __init__(
         self,
         folder: RunFolder,
-        config: RunConfig,
+        config: RunSettings,
         environment: Environment,
         assistant: Assistant,
         watcher: Watcher = lambda event: None,
@@ -118,9 +118,10 @@ class LearningRun:
         self._config = config
         self._watcher = watcher
         self._recorder = EpisodeRecorder(folder, environment)
+        self._scenes = tuple(domain.scene(name).name for name in config.scenes or domain.scenes)
         self.dataset = Dataset(domain)
         self.truth = TruthTable(domain, assistant)
-        asking = config.model.assistant
+        asking = config.model.asking
         self._readings = ReadingCalls(self.truth, asking.batch_size, asking.votes)
         self._explorer = Explorer(domain, assistant, config.exploration, config.seed)
         self._fitter = Fitter(domain, self.dataset, self.truth, absences=config.learning.absences)
@@ -184,8 +185,7 @@ class LearningRun:
 
     def _explore(self) -> Episode:
         seed = self._config.layout_seed(self._iteration)
-        scenes = tuple(self.dataset.domain.scenes)
-        scene = scenes[(self._iteration - 1) % len(scenes)]
+        scene = self._scenes[(self._iteration - 1) % len(self._scenes)]
         return self._recorder.run(self._iteration, seed, scene, self._choose, self._executed)
 
     def _choose(self, scene: Scene, observation: Observation) -> tuple[SkillInstance, ...]:

@@ -27,7 +27,7 @@ from skillwrapper.vlm.parsing import (
 from skillwrapper.vlm.prompt_library import PromptLibrary
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
 from skillwrapper.vlm.requests import RequestBuilder, Slot, allowed_slots, batch_slots
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 
 
 class _Parsed(Protocol):
@@ -54,11 +54,11 @@ class Assistant:
         self,
         models: ModelSet | Mapping[Role, VisionLanguageModel],
         prompts: PromptLibrary | None = None,
-        settings: AssistantSettings | None = None,
+        settings: AskingSettings | None = None,
     ) -> None:
         self._models = models if isinstance(models, ModelSet) else ModelSet(models)
         self._requests = RequestBuilder(prompts or PromptLibrary())
-        self._settings = settings or AssistantSettings()
+        self._settings = settings or AskingSettings()
         self._evaluator = Evaluator(self._models, self._requests, self._settings)
 
     def propose_sequences(self, question: ProposalQuestion) -> ProposalAnswer:

@@ -14,7 +14,7 @@ from skillwrapper.vlm.parsing import parse_labels
 from skillwrapper.vlm.parsing.names import fold
 from skillwrapper.vlm.protocol import ModelRequest
 from skillwrapper.vlm.requests import RequestBuilder
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.waves import run_wave
 from skillwrapper.world.types import Object
 
@@ -40,7 +40,7 @@ class Evaluator:
     """
 
     def __init__(
-        self, models: ModelSet, requests: RequestBuilder, settings: AssistantSettings
+        self, models: ModelSet, requests: RequestBuilder, settings: AskingSettings
     ) -> None:
         self._models, self._requests, self._settings = models, requests, settings
 

@@ -2,51 +2,89 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from skillwrapper.errors import ConfigurationError
+from pydantic import BaseModel, ConfigDict, Field
 
 
-@dataclass(frozen=True)
-class AssistantSettings:
-    """How models are asked; nothing here changes what a single reply means.
+class AskingSettings(BaseModel):
+    """How models are asked; nothing here changes what a single reply means."""
 
-    Attributes:
-        parallel: calls in flight at the same time; with 1 there are no threads.
-        batch_size: groundings judged in one call, at most.
-        reasks: how often groundings are asked for again that a reply left out.
-        unusable_reasks: how often a question is asked again whose whole reply was of no use.
-        votes: how often every grounding is judged, independently.
-        margin: by what share of the votes the majority must lead, 0 to 1; a tie or a smaller
-            lead makes the label unknown.
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
-    Raises:
-        ConfigurationError: if a number makes no sense.
-    """
-
-    parallel: int = 1
-    batch_size: int = 60
-    reasks: int = 2
-    unusable_reasks: int = 4
-    votes: int = 1
-    margin: float = 0.0
-
-    def __post_init__(self) -> None:
-        least_values = {
-            "parallel": 1,
-            "batch_size": 1,
-            "reasks": 0,
-            "unusable_reasks": 0,
-            "votes": 1,
-        }
-        for name, least in least_values.items():
-            value = getattr(self, name)
-            if value < least:
-                raise ConfigurationError(f"'{name}': expected at least {least}, got {value}")
-        if not 0 <= self.margin <= 1:
-            raise ConfigurationError(f"'margin': expected 0 to 1, got {self.margin}")
+    parallel: int = Field(
+        default=1,
+        ge=1,
+        description="calls in flight at the same time; with 1 there are no threads",
+        json_schema_extra={"unit": "calls"},
+    )
+    batch_size: int = Field(
+        default=60,
+        ge=1,
+        description="ground atoms judged in one call, at most",
+        json_schema_extra={"unit": "ground atoms"},
+    )
+    reasks: int = Field(
+        default=2,
+        ge=0,
+        description="how often ground atoms are asked for again that a reply left out",
+        json_schema_extra={"unit": "questions"},
+    )
+    unusable_reasks: int = Field(
+        default=4,
+        ge=0,
+        description="how often a question is asked again whose whole reply was of no use",
+        json_schema_extra={"unit": "questions"},
+    )
+    votes: int = Field(
+        default=1,
+        ge=1,
+        description="how often every ground atom is judged, independently",
+        json_schema_extra={"unit": "votes"},
+    )
+    margin: float = Field(
+        default=0.0,
+        ge=0.0,
+        le=1.0,
+        description="by what share of the votes the majority must lead; a tie or a smaller lead "
+        "makes the label unknown",
+        json_schema_extra={"unit": "share of the votes"},
+    )
 
     @property
     def most_repetitions(self) -> int:
-        """How often one vote on one batch of groundings is asked for at most."""
+        """How often one vote on one batch of ground atoms is asked for at most."""
         return 1 + self.reasks + self.unusable_reasks
+
+
+class EndpointSettings(BaseModel):
+    """How a model behind an endpoint is asked."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    timeout: float = Field(
+        default=120.0,
+        gt=0.0,
+        description="how long one attempt may take",
+        json_schema_extra={"unit": "seconds"},
+    )
+    temperature: float | None = Field(
+        default=None,
+        ge=0.0,
+        le=2.0,
+        description="none for the model's default; some models accept no other",
+        json_schema_extra={"unit": "temperature"},
+    )
+    max_output_tokens: int | None = Field(
+        default=None,
+        ge=1,
+        description="longest reply, reasoning included; none for the model's default",
+        json_schema_extra={"unit": "tokens"},
+    )
+    reasoning_effort: str | None = Field(
+        default=None, description="e.g. low; none for the model's default"
+    )
+    image_size: int | None = Field(
+        default=1024,
+        ge=1,
+        description="pictures with a longer side are scaled down to this; none for never",
+        json_schema_extra={"unit": "pixels"},
+    )

@@ -25,10 +25,10 @@ from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.readers import AtomReader
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.report import render_report
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learn import learn
 from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel
 
 
@@ -63,7 +63,7 @@ def test_the_expert_knows_all_and_nobody_knows_nothing() -> None:
 def test_the_curve_of_a_run_is_kept_and_shown(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    config = RunConfig(domain="burger", iterations=2, exploration=ExplorationSettings(budget=5))
+    config = RunSettings(domain="burger", iterations=2, exploration=ExplorationSettings(budget=5))
     learn(config, tmp_path / "run")
     folder = RunFolder.open(tmp_path / "run")
     assert "Exact truth" not in render_report(folder)

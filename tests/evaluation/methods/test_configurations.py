@@ -8,9 +8,9 @@ from skillwrapper.errors import UnknownNameError
 from skillwrapper.evaluation.methods.learned import LearnedMethod
 from skillwrapper.evaluation.methods.registry import METHODS, method_of
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.settings import RunSettings
 
-WHOLE = RunConfig(
+WHOLE = RunSettings(
     domain="burger", seed=3, iterations=10, exploration=ExplorationSettings(budget=30)
 )
 

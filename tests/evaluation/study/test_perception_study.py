@@ -13,8 +13,8 @@ from skillwrapper.evaluation.study.scoring import mean_accuracy, score_predicate
 from skillwrapper.evaluation.study.subjects import subject_of
 from skillwrapper.evaluation.study.tables import EMBEDDED_NOTE, perception_tables
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.learn import learn
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.world.types import Object
@@ -107,7 +107,7 @@ def test_a_models_noise_can_be_part_of_its_name() -> None:
 def test_the_learned_predicates_of_a_run_are_studied_too(tmp_path: Path) -> None:
     run = tmp_path / "run"
     exploration = ExplorationSettings(budget=20)
-    learn(RunConfig(domain="burger", seed=5, iterations=1, exploration=exploration), run)
+    learn(RunSettings(domain="burger", seed=5, iterations=1, exploration=exploration), run)
     subject = subject_of(str(run), pictures=4)
     found = study_perception(subject, [StudiedModel("embedded")], find_conditions(["clean"]))
     assert found.results[0].accuracy == 1.0

@@ -11,8 +11,8 @@ from skillwrapper.evaluation.exact.learning_curves import Stage
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import AtomReader, PictureReader
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.runs.assistants import open_assistant
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.model_sessions import open_session
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,10 @@ class ExpertMethod:
         config = bench.config()
         path = bench.folder / "run"
         folder = RunFolder.create_or_resume(path, config, bench.package.file)
-        with open_assistant(config, folder, learning=False) as session:
+        with open_session(config, folder.calls, learning=False) as session:
             table = TruthTable(bench.environment.domain, session.assistant)
             reader = PictureReader(bench.environment, table)
-            solver = bench.solver(model, reader, truth, lambda: session.calls)
+            solver = bench.solver(model, reader, truth, lambda: session.counter.answered)
             yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states), calls=folder)
 
 

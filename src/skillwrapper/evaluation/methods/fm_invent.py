@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import LearnedMethod
-from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.settings import RunSettings
 
 
-def _invent_at_once(config: RunConfig) -> RunConfig:
+def _invent_at_once(config: RunSettings) -> RunSettings:
     learning = config.learning.model_copy(update={"invention": "batch"})
     return config.model_copy(update={"learning": learning})
 

@@ -11,15 +11,16 @@ from skillwrapper.evaluation.exact.learning_curves import read_stages
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import PictureReader
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.runs.assistants import open_assistant
-from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.events import RunEvent
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.loop import LearningRun
+from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.runs.recorder import read_episode
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.world.episode import Episode
 
 
-def unchanged(config: RunConfig) -> RunConfig:
+def unchanged(config: RunSettings) -> RunSettings:
     """The experiment's own configuration."""
     return config
 
@@ -37,7 +38,7 @@ class LearnedMethod:
 
     name: str
     title: str
-    configure: Callable[[RunConfig], RunConfig] = unchanged
+    configure: Callable[[RunSettings], RunSettings] = unchanged
     source: str | None = None
 
     @contextmanager
@@ -48,13 +49,13 @@ class LearnedMethod:
         folder = RunFolder.create_or_resume(path, config, bench.package.file)
         figures = _learn(bench, config, folder)
         stages = read_stages(folder, bench.environment.domain)
-        with open_assistant(config, folder, learning=False) as session:
+        with open_session(config, folder.calls, learning=False) as session:
             recorded = TruthTable(bench.environment.domain, session.assistant)
             solver = bench.solver(
                 stages[-1].model,
                 PictureReader(bench.environment, recorded),
                 PictureReader(bench.environment, bench.truth.sight),
-                lambda: session.calls,
+                lambda: session.counter.answered,
             )
             yield Prepared(
                 solver,
@@ -69,10 +70,14 @@ class LearnedMethod:
             )
 
 
-def _learn(bench: Bench, config: RunConfig, folder: RunFolder) -> dict[str, Any]:
+def _learn(bench: Bench, config: RunSettings, folder: RunFolder) -> dict[str, Any]:
     """Run what is left of the run; figures of the whole."""
-    with open_assistant(config, folder) as session:
-        run = LearningRun(folder, config, bench.environment, session.assistant, session.note)
+    with open_session(config, folder.calls) as session:
+
+        def watch(event: RunEvent) -> None:
+            session.counter.iteration = event.iteration
+
+        run = LearningRun(folder, config, bench.environment, session.assistant, watch)
         return run.run().to_json()
 
 

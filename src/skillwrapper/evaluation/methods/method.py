@@ -20,8 +20,8 @@ from skillwrapper.evaluation.problems.solving import ModelSolver
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.planning.planner import Planner, PlannerSettings
-from skillwrapper.runs.config import ModelSettings, RunConfig
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.settings import ModelSettings, RunSettings
 from skillwrapper.symbols import AbstractModel
 from skillwrapper.transitions.dataset import TruthSource
 from skillwrapper.world.environment import EnumerableEnvironment
@@ -92,9 +92,9 @@ class Bench:
     package: DomainPackage
     truth: StateTruth
 
-    def config(self) -> RunConfig:
+    def config(self) -> RunSettings:
         """A run of the whole method in this cell."""
-        return RunConfig(
+        return RunSettings(
             domain=self.cell.domain,
             seed=self.cell.seed,
             iterations=self.settings.iterations,

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import LearnedMethod
-from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.settings import RunSettings
 
 
-def _choose_uniformly(config: RunConfig) -> RunConfig:
+def _choose_uniformly(config: RunSettings) -> RunSettings:
     exploration = config.exploration.model_copy(update={"choice": "uniform"})
     return config.model_copy(update={"exploration": exploration})
 

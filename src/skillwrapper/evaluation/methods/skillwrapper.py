@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import LearnedMethod
-from skillwrapper.runs.config import RunConfig
+from skillwrapper.runs.settings import RunSettings
 
 PAPER_ITERATIONS: Final = 5
 PAPER_BUDGET: Final = 15
@@ -14,7 +14,7 @@ PAPER_BUDGET: Final = 15
 OURS: Final = LearnedMethod("ours", "SkillWrapper (ours)")
 
 
-def _paper_budget(config: RunConfig) -> RunConfig:
+def _paper_budget(config: RunSettings) -> RunSettings:
     exploration = config.exploration.model_copy(update={"budget": PAPER_BUDGET})
     return config.model_copy(update={"iterations": PAPER_ITERATIONS, "exploration": exploration})
 

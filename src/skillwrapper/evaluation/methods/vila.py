@@ -13,8 +13,8 @@ from skillwrapper.evaluation.problems.causes import Cause, Diagnosis
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
-from skillwrapper.runs.assistants import open_assistant
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.skills import SkillInstance
 
@@ -131,13 +131,13 @@ class VilaMethod:
         config = bench.config()
         path = bench.folder / "run"
         folder = RunFolder.create_or_resume(path, config, bench.package.file)
-        with open_assistant(config, folder, learning=False) as session:
+        with open_session(config, folder.calls, learning=False) as session:
             yield Prepared(
                 VilaSolver(
                     bench.environment,
                     session.assistant,
                     bench.settings.actions,
-                    lambda: session.calls,
+                    lambda: session.counter.answered,
                 ),
                 calls=folder,
             )

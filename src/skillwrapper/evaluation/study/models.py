@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from skillwrapper.embedded.model import EmbeddedModel
-from skillwrapper.runs.assistants import EMBEDDED, make_model
-from skillwrapper.runs.config import ModelSettings
+from skillwrapper.runs.models import EMBEDDED, open_model
+from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
 from skillwrapper.vlm.recorded_model import RecordedModel
-from skillwrapper.vlm.settings import AssistantSettings
+from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_model import StoredModel
 from skillwrapper.vlm.wrapping import ModelWrapper
@@ -76,7 +76,7 @@ def open_studied(
     seed: int = 0,
     run: int = 0,
     calls: Path | None = None,
-    settings: AssistantSettings | None = None,
+    settings: AskingSettings | None = None,
 ) -> Iterator[Assistant]:
     """An assistant that asks a model.
 
@@ -91,7 +91,7 @@ def open_studied(
         UnknownNameError: if there is no such model or noise profile.
         RunFolderError: if the store is damaged.
     """
-    made = make_model(ModelSettings(name=model.name, noise=model.noise), model.name, seed + run)
+    made = open_model(model.name, ModelSettings(noise=model.noise), seed + run)
     with ExitStack() as resources:
         if isinstance(made, RecordedModel):
             resources.callback(made.close)

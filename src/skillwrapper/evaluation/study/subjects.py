@@ -16,9 +16,9 @@ from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.evaluation.study.scoring import Readings
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.perception.questions import EvaluationQuestion
-from skillwrapper.runs.config import RunConfig
 from skillwrapper.runs.folder import CONFIG, RunFolder
 from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import EnumerableEnvironment
@@ -193,7 +193,7 @@ def subject_of(
     """
     if (Path(target) / CONFIG).is_file():
         learned = LearnedRun.read(RunFolder.open(Path(target)))
-        config: RunConfig = learned.folder.config()
+        config: RunSettings = learned.folder.config()
         domain, predicates = learned.model.domain, learned.model.predicates
         name, truth = config.domain, None
         origin = f"learned predicates of {target}, true by the embedded model without noise"

@@ -1,0 +1,85 @@
+"""From a model's name, as users write it, to a model that can be asked."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+
+from skillwrapper.embedded import EmbeddedModel, noise_profile
+from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.runs.settings import ModelSettings, RunSettings
+from skillwrapper.vlm.prompt_library import PromptLibrary
+from skillwrapper.vlm.protocol import VisionLanguageModel
+from skillwrapper.vlm.recorded_model import RecordedModel
+
+EMBEDDED = "embedded"
+_KINDS = ("embedded", "openai:NAME", "recorded:DIR")
+
+
+def open_model(name: str, settings: ModelSettings, seed: int) -> VisionLanguageModel:
+    """The model of a name: ``embedded``, ``openai:NAME`` or ``recorded:DIR``.
+
+    Args:
+        name: which model.
+        settings: each for the models that it concerns.
+        seed: of the embedded model.
+
+    Raises:
+        ConfigurationError: if something is missing in the name, or a setting makes no sense.
+        UnknownNameError: if there is no such kind of model or noise profile.
+        AuthenticationError: if a key is needed and there is none.
+        RunFolderError: if a recording is missing or damaged.
+    """
+    kind, _, rest = name.partition(":")
+    if kind not in {known.partition(":")[0] for known in _KINDS}:
+        raise UnknownNameError("model", name, _KINDS)
+    if name == EMBEDDED:
+        return EmbeddedModel(seed, noise_profile(settings.noise))
+    if kind == "recorded" and rest:
+        return RecordedModel(Path(rest))
+    if kind == "openai" and rest:
+        return _open_endpoint(rest, settings)
+    raise ConfigurationError(f"expected a model of the form {', '.join(_KINDS)}, got '{name}'")
+
+
+def open_prompts(settings: ModelSettings) -> PromptLibrary:
+    """The prompt templates of a run.
+
+    Raises:
+        UserError: if the folder or a template in it cannot be used.
+    """
+    return PromptLibrary(settings.prompts)
+
+
+def model_names(settings: ModelSettings) -> tuple[str, ...]:
+    """The models that a run asks, each once."""
+    return tuple(dict.fromkeys((settings.name, *settings.roles.values())))
+
+
+def check_models(settings: RunSettings) -> None:
+    """Make sure that the models of a run can be opened and its templates read.
+
+    Raises:
+        UserError: if a name, an option, a recording or a template is not what it should be.
+        AuthenticationError: if a key is missing.
+    """
+    open_prompts(settings.model)
+    with ExitStack() as resources:
+        for name in model_names(settings.model):
+            close_with(resources, open_model(name, settings.model, settings.seed))
+
+
+def close_with(resources: ExitStack, model: VisionLanguageModel) -> VisionLanguageModel:
+    """The same model, closed when the resources are, if it has anything to close."""
+    close = getattr(model, "close", None)
+    if callable(close):
+        resources.callback(close)
+    return model
+
+
+def _open_endpoint(name: str, settings: ModelSettings) -> VisionLanguageModel:
+    # Imported late: the client takes a second to load, and most commands do not need it.
+    from skillwrapper.vlm.openai_model import OpenAIModel, OpenAISettings  # noqa: PLC0415
+
+    endpoint = settings.endpoint.model_dump()
+    return OpenAIModel(OpenAISettings(name, base_url=settings.base_url, **endpoint))
