@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Protocol, runtime_checkable
 
+from skillwrapper.vlm.answers import answer_of, clean_text
 from skillwrapper.world.observation import Picture
 
 
@@ -61,7 +62,8 @@ class ModelReply:
     """What a model answered.
 
     Attributes:
-        text: the reply; not empty, unless it was cut off.
+        text: the reply with all its reasoning, mended on receipt (``clean_text``); not empty,
+            unless it was cut off.
         usage: what it took.
         taken_back: whether the reply was of no use when it came. It then tells how a question
             went, so that it is asked again in the same way, and must not be taken for an answer.
@@ -73,6 +75,14 @@ class ModelReply:
     usage: Usage = field(default_factory=Usage)
     taken_back: bool = False
     cut_off: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", clean_text(self.text))
+
+    @property
+    def answer(self) -> str:
+        """The reply without the model's reasoning; may be empty."""
+        return answer_of(self.text)
 
 
 class VisionLanguageModel(Protocol):

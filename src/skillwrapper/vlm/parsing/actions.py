@@ -6,26 +6,25 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from skillwrapper.vlm.parsing.calls import Call, find_calls
+from skillwrapper.vlm.parsing.calls import Call
 from skillwrapper.vlm.parsing.instances import InstanceReader
-from skillwrapper.vlm.parsing.lines import excerpt, plain_lines, without_lead
-from skillwrapper.vlm.parsing.structured import flatten_json
+from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
 
 _LABEL = re.compile(
-    r"^(?:plan|answer|next (?:action|skill|step)|action|skill|result|final answer|status)"
-    r"\s*\d*\s*[:=-]+\s*",
+    r"(?:plan|answer|next (?:action|skill|step)|action|skill|result|final answer|status)"
+    r" ?\d{0,3} ?[:=-]{1,3} ?",
     re.IGNORECASE,
 )
 _DONE = re.compile(
-    r"^\W*(?:done|task (?:is )?(?:done|complete|completed|finished)"
-    r"|(?:the )?goal (?:is |has been )?(?:already )?reached)\W*$",
+    r"\W{0,5}(?:done|task (?:is )?(?:done|complete|completed|finished)"
+    r"|(?:the )?goal (?:is |has been )?(?:already )?reached)\W{0,5}",
     re.IGNORECASE,
 )
 _IMPOSSIBLE = re.compile(
-    r"^\W*(?:(?:the |this )?(?:task|goal) (?:is|seems) )?"
-    r"(?:impossible|infeasible|unsolvable|not possible)(?: to (?:solve|reach))?\W*$",
+    r"\W{0,5}(?:(?:the |this )?(?:task|goal) (?:is|seems) )?"
+    r"(?:impossible|infeasible|unsolvable|not possible)(?: to (?:solve|reach))?\W{0,5}",
     re.IGNORECASE,
 )
 
@@ -50,7 +49,7 @@ class ParsedPlan:
 def parse_plan(reply: str, skills: Sequence[Skill], objects: Sequence[Object]) -> ParsedPlan:
     """Read the plan that follows the reasoning. Never raises."""
     reader = InstanceReader(skills, objects)
-    lines = [_content(line) for line in plain_lines(flatten_json(reply))]
+    lines = [_content(line.text) for line in reply_lines(reply)]
     steps, unusable = [], []
     for call in _plan_calls(lines, reader):
         instance = reader.read(call)
@@ -58,8 +57,8 @@ def parse_plan(reply: str, skills: Sequence[Skill], objects: Sequence[Object]) -
             unusable.append(excerpt(instance, 160))
         else:
             steps.append(instance)
-    done = any(_DONE.match(line) for line in lines)
-    impossible = not steps and any(_IMPOSSIBLE.match(line) for line in lines)
+    done = any(_DONE.fullmatch(line) for line in lines)
+    impossible = not steps and any(_IMPOSSIBLE.fullmatch(line) for line in lines)
     if not (steps or done or impossible or unusable):
         unusable.append(f"no plan in the reply: '{excerpt(reply)}'")
     return ParsedPlan(
@@ -68,17 +67,17 @@ def parse_plan(reply: str, skills: Sequence[Skill], objects: Sequence[Object]) -
 
 
 def _content(line: str) -> str:
-    return _LABEL.sub("", without_lead(line), count=1).strip().strip("\"',")
+    label = _LABEL.match(line)
+    return line[label.end() if label else 0 :].strip(" \"',")
 
 
 def _plan_calls(lines: list[str], reader: InstanceReader) -> list[Call]:
     """The calls of the lines that begin with a skill; where there are none, of the last that
     mentions any. Skills mentioned in the reasoning are not part of the plan.
     """
-    found = [(line, find_calls(line)) for line in lines]
-    found = [(line, calls) for line, calls in found if calls]
-    listed = [calls for line, calls in found if calls[0].start == 0]
-    chosen = listed or [calls for _, calls in found if any(map(_known(reader), calls))][-1:]
+    found = [calls for line in lines if (calls := reader.steps(line))]
+    listed = [calls for calls in found if calls[0].start == 0]
+    chosen = listed or [calls for calls in found if any(map(_known(reader), calls))][-1:]
     return [call for calls in chosen for call in calls]
 
 

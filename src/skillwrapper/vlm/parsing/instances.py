@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Sequence
 
-from skillwrapper.vlm.parsing.calls import Call
+from skillwrapper.vlm.parsing.calls import Call, find_calls
 from skillwrapper.vlm.parsing.names import NameIndex
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
 
 _MOST_REORDERED = 6
+_LONGEST_NAME = 60
+_PIECE = re.compile(r"(?:[^,;:|>-]|-(?![> ]))++")
 
 
 class InstanceReader:
@@ -31,15 +34,38 @@ class InstanceReader:
         """Whether a name is, or comes near, that of a skill."""
         return self._skill_names.find(written) is not None
 
+    def steps(self, line: str) -> list[Call]:
+        """The skills in a line in their order.
+
+        Those without arguments may stand there without parentheses, as long as the line holds
+        nothing else before them: ``OpenGripper -> Pick(robot, cup)``.
+        """
+        calls = find_calls(line)
+        steps: list[Call] = []
+        end, is_list = 0, not line.endswith(":")
+        for call in (*calls, None):
+            for piece in _PIECE.finditer(line, end, call.start if call else len(line)):
+                name = piece.group().strip(" \"'[].")
+                is_list = is_list and (not name or self._is_skill(name))
+                if name and is_list:
+                    steps.append(Call(name, (), piece.start(), piece.end()))
+            if call:
+                steps.append(call)
+                end = call.end
+        return steps
+
+    def _is_skill(self, written: str) -> bool:
+        return len(written) <= _LONGEST_NAME and self._skill_names.find_exact(written) is not None
+
     def read(self, call: Call) -> SkillInstance | str:
         """The skill instance that was meant, or why it cannot be told."""
         name = self._skill_names.find(call.name)
         if name is None:
             return f"{call}: no skill '{call.name}'"
-        found = [self._object_names.find(value) for value in call.values]
-        for value, object_name in zip(call.values, found, strict=True):
+        found = [self._object_names.find_among(readings) for readings in call.readings]
+        for readings, object_name in zip(call.readings, found, strict=True):
             if object_name is None:
-                return f"{call}: no object '{value}'"
+                return f"{call}: no object '{readings[0] if readings else ''}'"
         chosen = [self._objects[object_name] for object_name in found if object_name is not None]
         return self._fit(self._skills[name], chosen, call)
 

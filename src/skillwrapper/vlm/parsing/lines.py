@@ -1,58 +1,32 @@
-"""From a reply as models write it to plain lines: no markdown, no thinking aloud, no odd signs."""
+"""From a reply as models write it to the lines that the parsers read."""
 
 from __future__ import annotations
 
-import re
-import unicodedata
+from skillwrapper.vlm.answers import answer_of, clean_text
+from skillwrapper.vlm.parsing.markup import Line, plain_line, without_tags
+from skillwrapper.vlm.parsing.records import join_records
+from skillwrapper.vlm.parsing.structured import flatten_json
 
-_LONGEST_REPLY = 200_000
-_THINKING = re.compile(r"<(think|thinking|reasoning|scratchpad)>.*?(?:</\1>|\Z)", re.DOTALL | re.I)
-_TAG = re.compile(r"</?(?:br|b|i|p|li|ul|ol|em|strong|code|pre|sub|sup|hr)\s?/?>", re.IGNORECASE)
-_ESCAPED = re.compile(r"\\([_*()\[\]<>#-])")
-_FENCE = re.compile(r"^[ \t>]*(?:```|~~~)[\w-]*[ \t]*$", re.MULTILINE)
-_LEAD = re.compile(
-    r"^\s*(?:[#>|\s]+|[-+•·‣▪»]\s*|\(?\d{1,3}[.):]+(?!\d)\s*|\([a-zA-Z]\)\s*|[a-zA-Z]\)\s+"
-    r"|step\s*\d{1,3}\s*[.:)-]*\s*)",
-    re.IGNORECASE,
-)
-_PLAIN_SIGNS = {
-    **dict.fromkeys("\u201c\u201d\u00ab\u00bb", '"'),
-    **dict.fromkeys("\u2018\u2019", "'"),
-    **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015\u2212", "-"),
-    **dict.fromkeys("\u2192\u21d2", "->"),
-    **dict.fromkeys("*`", ""),
-}
-_PLAIN = str.maketrans(_PLAIN_SIGNS)
-_DEEPEST_LEAD = 5
+_LONGEST_REPLY = 100_000
 
 
-def plain_lines(reply: str) -> list[str]:
-    """The lines of a reply without markup; empty lines are kept, code fences become empty."""
-    text = unicodedata.normalize("NFKC", reply[:_LONGEST_REPLY])
-    text = _FENCE.sub("", _THINKING.sub("\n", text))
-    text = _TAG.sub("", _ESCAPED.sub(r"\1", text).translate(_PLAIN))
+def reply_lines(reply: str) -> list[Line]:
+    """The lines of a reply's answer; what is written as records is one line each.
+
+    Records are objects in JSON, rows of tables and blocks like ``Name: ...`` over
+    ``Meaning: ...``. Empty lines are kept, code fences become empty. A reply that is longer than
+    any sensible one is read up to a limit.
+    """
+    text = answer_of(reply)
+    if len(text) > _LONGEST_REPLY:
+        text = text[:_LONGEST_REPLY].rpartition("\n")[0]
+    text = clean_text(flatten_json(without_tags(text)))
     if "\n" not in text.strip():  # line breaks that were escaped once too often
         text = text.replace("\\n", "\n")
-    return [line.strip() for line in text.splitlines()]
-
-
-def without_lead(line: str) -> str:
-    """A line without its list marker, number, heading or table bar."""
-    for _ in range(_DEEPEST_LEAD):
-        shorter = _LEAD.sub("", line, count=1)
-        if shorter == line:
-            break
-        line = shorter
-    return line.strip()
-
-
-def leading_number(line: str) -> int | None:
-    """The number a line is listed under, if any."""
-    found = re.match(r"^[\s\-#]*\(?(\d{1,3})[.):]", line)
-    return int(found.group(1)) if found else None
+    return join_records([plain_line(line) for line in text.split("\n")])
 
 
 def excerpt(line: str, length: int = 80) -> str:
     """A line short enough for a message."""
-    line = " ".join(line.split())
+    line = " ".join(line[: 20 * length].split())
     return line if len(line) <= length else line[: length - 3] + "..."

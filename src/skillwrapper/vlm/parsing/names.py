@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
-_ARTICLE = re.compile(r"^(?:the|an?)\s+", re.IGNORECASE)
-_DIGITS = re.compile(r"\d+")
+_ARTICLE = re.compile(r"(?:the|an?) ", re.IGNORECASE)
+_DIGITS = re.compile(r"\d")
 _LONGEST_NAME = 60
 _SIMILAR = 0.8
 _LEAD = 0.08
+_MOST_GUESSES = 400
+"""How many different misspelt names are looked into; a reply with more is noise."""
+_MOST_REMEMBERED = 4096
 
 
 def fold(name: str) -> str:
@@ -18,8 +21,13 @@ def fold(name: str) -> str:
     return "".join(c for c in name.casefold() if c.isalnum())
 
 
+def words_of(text: str) -> tuple[str, ...]:
+    """The words of a text: a long list of words is easier to read as one."""
+    return tuple(text.split())
+
+
 class NameIndex:
-    """Looks up names; remembers what it found, so that parsing a long reply stays linear.
+    """Looks up names; remembers what it found, and looks into so many misspelt ones only.
 
     Args:
         names: the names that exist.
@@ -31,33 +39,53 @@ class NameIndex:
         for name in self._names:
             self._folded.setdefault(fold(name), []).append(name)
         self._found: dict[str, str | None] = {name: name for name in self._names}
+        self._guesses = 0
 
     def find(self, written: str) -> str | None:
         """The name that was meant; None if there is none, or more than one comes near."""
-        if written not in self._found:
-            self._found[written] = self._search(written)
-        return self._found[written]
+        if written in self._found:
+            return self._found[written]
+        found = self._search(written)
+        if len(self._found) < _MOST_REMEMBERED:
+            self._found[written] = found
+        return found
 
-    def _search(self, written: str) -> str | None:
-        given = fold(_ARTICLE.sub("", written.strip()))
-        if not given or len(given) > _LONGEST_NAME:
-            return None
+    def find_exact(self, written: str) -> str | None:
+        """The only name that differs in case, separators, article and index at most."""
+        given = fold(_ARTICLE.sub("", written[: 2 * _LONGEST_NAME].strip(), count=1))
         for attempt in (given, given.rstrip("0123456789")):
-            same = self._folded.get(attempt, [])
+            same = self._folded.get(attempt, []) if attempt else []
             if same:
                 return same[0] if len(same) == 1 else None
-        return self._nearest(given)
+        return None
+
+    def find_among(self, readings: Sequence[str]) -> str | None:
+        """The one name that any of several readings means; those without a slip count first."""
+        for find in (self.find_exact, self.find):
+            found = {name for reading in readings if (name := find(reading)) is not None}
+            if found:
+                return found.pop() if len(found) == 1 else None
+        return None
+
+    def _search(self, written: str) -> str | None:
+        exact = self.find_exact(written)
+        given = fold(_ARTICLE.sub("", written[: 2 * _LONGEST_NAME].strip(), count=1))
+        if exact is not None or not given or len(given) > _LONGEST_NAME:
+            return exact
+        if given in self._folded or given.rstrip("0123456789") in self._folded:
+            return None
+        self._guesses += 1
+        return self._nearest(given) if self._guesses <= _MOST_GUESSES else None
 
     def _nearest(self, given: str) -> str | None:
         digits = _DIGITS.findall(given)
-        scores = sorted(
-            (
-                (difflib.SequenceMatcher(None, given, known, autojunk=False).ratio(), known)
-                for known in self._folded
-                if _DIGITS.findall(known) == digits
-            ),
-            reverse=True,
-        )
+        compare = difflib.SequenceMatcher(None, b=given, autojunk=False)
+        scores = []
+        for known in self._folded:
+            compare.set_seq1(known)
+            if _DIGITS.findall(known) == digits and compare.quick_ratio() >= _SIMILAR - _LEAD:
+                scores.append((compare.ratio(), known))
+        scores.sort(reverse=True)
         if not scores or scores[0][0] < _SIMILAR:
             return None
         if len(scores) > 1 and scores[1][0] > scores[0][0] - _LEAD:

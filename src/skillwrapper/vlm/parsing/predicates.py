@@ -7,27 +7,30 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from skillwrapper.symbols.predicates import Predicate
-from skillwrapper.vlm.parsing.calls import argument_value, find_calls
-from skillwrapper.vlm.parsing.lines import excerpt, plain_lines, without_lead
+from skillwrapper.vlm.parsing.calls import argument_readings, find_calls
+from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.vlm.parsing.names import NameIndex, fold
-from skillwrapper.vlm.parsing.structured import flatten_json
 
 _LABEL = re.compile(
-    r"^(?:(?:the\s+)?(?:best\s+|new\s+|final\s+|proposed\s+|next\s+|second\s+|first\s+)*"
-    r"(?:predicate|candidate|proposal|answer|name|signature|option)s?"
-    r"(?:\s+(?:name|candidate|signature))?\s*#?\s*\d{0,2})\s*[:=-]+\s*",
+    r"(?:the )?(?:(?:best|new|final|proposed|next|second|first) ){0,3}"
+    r"(?:predicate|candidate|proposal|answer|name|signature|option|def|define)s?"
+    r"(?: (?:name|candidate|signature))? ?#? ?\d{0,2} ?[:=-]{1,3} ?|(?:def|define) ",
     re.IGNORECASE,
 )
-_NAME = r"[A-Za-z][\w-]*(?: [A-Za-z][\w-]*){0,5}"
-_SIGNATURE = re.compile(rf"^[\"']?({_NAME})[ ]?\(((?:[^()\n]|\([^()\n]*\))*+)\)[\"']?\s*")
-_NULLARY = re.compile(r"^[\"']?([A-Za-z][A-Za-z0-9]*(?:_[A-Za-z0-9]+)+)[\"']?\s*(?=[:=|]|-\s|->)")
-_LISP = re.compile(r"^\(([A-Za-z][\w-]*)((?:\s+\??[A-Za-z][\w-]*(?:\s+-\s+[\w-]+)?)*+)\s*\)\s*")
-_SEPARATOR = re.compile(r"^(?:[:=|;.-]|->|=>|:=|means\b|is true (?:if|when|iff)\b)[\s:=|>-]*")
+_NAME = re.compile(r"[\"']?([A-Za-z][\w-]{0,80}(?: [A-Za-z][\w-]{0,80}){0,5})[\"']? ?")
+_NULLARY = re.compile(
+    r"[\"']?([A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8})[\"']? ?(?=[:=|]|- |->)"
+)
+_SEPARATOR = re.compile(
+    r"[\"']? ?(?:[:=|;.-]|->|=>|:=|means\b|iff\b|is true (?:if|when|iff)\b)[ :=|>-]{0,8}"
+)
 _MEANING = re.compile(
-    r"^(?:semantics?|semantic meaning|meaning|definition|description|explanation|true when)"
-    r"\s*[:=-]+\s*",
+    r"(?:semantics?|semantic meaning|meaning|definition|description|explanation|true when)"
+    r" ?[:=-]{1,3} ?",
     re.IGNORECASE,
 )
+_WORD = re.compile(r"\w++", re.ASCII)
+_WORD_PART = re.compile(r"[^\W_]++")
 _LONGEST_NAME = 60
 _LOOK_AHEAD = 3
 
@@ -66,7 +69,7 @@ def parse_predicates(reply: str, names: ParameterNames) -> ParsedPredicates:
     resolver = _TypeResolver(names)
     found: dict[tuple[str, tuple[str, ...]], Predicate] = {}
     unusable = []
-    for proposal in _proposals(plain_lines(flatten_json(reply))):
+    for proposal in _proposals([line.text for line in reply_lines(reply)]):
         predicate = _check(proposal, resolver)
         if isinstance(predicate, str):
             unusable.append(excerpt(predicate, 200))
@@ -78,62 +81,61 @@ def parse_predicates(reply: str, names: ParameterNames) -> ParsedPredicates:
 
 
 def _proposals(lines: Sequence[str]) -> Iterator[_Proposal]:
-    texts = [_LABEL.sub("", without_lead(line), count=1).strip() for line in lines]
+    texts = [_without(_LABEL, line) for line in lines]
     for number, text in enumerate(texts):
         read = _read_signature(text)
         if read is None:
             continue
         name, parameters, rest = read
-        semantics = _semantics_of(rest)
-        if semantics is None:
-            semantics = "" if rest.strip("|\"',.: ") else _semantics_below(texts[number + 1 :])
-        if semantics or rest == "":
-            yield _Proposal(name, parameters, semantics or "")
+        separator = _SEPARATOR.match(rest)
+        semantics = _tidy(rest[separator.end() :]) if separator else ""
+        if not semantics and not rest.strip("|\"',.:;=-> "):
+            semantics = _semantics_below(texts[number + 1 : number + 2 + _LOOK_AHEAD])
+            yield _Proposal(name, parameters, semantics)
+        elif semantics:
+            yield _Proposal(name, parameters, semantics)
 
 
 def _read_signature(text: str) -> tuple[str, tuple[str, ...], str] | None:
     """Name, parameters and what follows, if a line begins with a predicate."""
-    named = _SIGNATURE.match(text)
-    if named:
-        inside = re.split(r"[,;]", named.group(2))
-        parameters = tuple(part.strip() for part in inside if part.strip())
-        return named.group(1), parameters, text[named.end() :]
-    lisp = _LISP.match(text)
-    if lisp:
-        typed = re.findall(r"\??[A-Za-z][\w-]*(?:\s+-\s+[\w-]+)?", lisp.group(2))
-        return lisp.group(1), tuple(typed), text[lisp.end() :]
+    named = _NAME.match(text)
+    calls = (
+        find_calls(f"p{text[named.end() :]}") if named and text[named.end() :][:1] == "(" else []
+    )
+    if named and calls and calls[0].start == 0:
+        return named.group(1), calls[0].arguments, text[named.end() + calls[0].end - 1 :]
+    calls = find_calls(text)
+    if calls and calls[0].start == 0:  # in the manner of Lisp, or in square brackets
+        return calls[0].name, calls[0].arguments, text[calls[0].end :]
     nullary = _NULLARY.match(text)
-    if nullary:
-        return nullary.group(1), (), text[nullary.end() :]
-    return None
+    return (nullary.group(1), (), text[nullary.end() :]) if nullary else None
 
 
-def _semantics_of(rest: str) -> str | None:
-    """The meaning behind a separator, or None if there is no separator."""
-    separator = _SEPARATOR.match(rest)
-    return _tidy(rest[separator.end() :]) if separator else None
-
-
-def _semantics_below(texts: Sequence[str]) -> str | None:
+def _semantics_below(texts: Sequence[str]) -> str:
     """The meaning in one of the next lines: labelled, or the next line of prose."""
-    near = [text for text in texts[: _LOOK_AHEAD + 1] if text][:_LOOK_AHEAD]
+    near = [text for text in texts if text][:_LOOK_AHEAD]
     labelled = next((text for text in near if _MEANING.match(text)), None)
     if labelled is not None:
         return _tidy(labelled)
     if near and " " in near[0] and not find_calls(near[0]) and near[0][-1] not in ":?":
-        return _tidy(near[0])
-    return None
+        return _tidy(near[0].removeprefix(":").removeprefix("- "))
+    return ""
+
+
+def _without(pattern: re.Pattern[str], text: str) -> str:
+    """A text without what a pattern finds at its beginning."""
+    found = pattern.match(text)
+    return text[found.end() :].strip() if found else text
 
 
 def _tidy(text: str) -> str:
-    text = _MEANING.sub("", " ".join(text.split()), count=1)
-    return text.strip().strip("|\"' ").strip()
+    return _without(_MEANING, text.strip("|\"' ")).strip("|\"' ")
 
 
 def _check(proposal: _Proposal, resolver: _TypeResolver) -> Predicate | str:
-    name = re.sub(r"\W+", "_", proposal.name.strip(), flags=re.ASCII).strip("_")
+    name = "_".join(_WORD.findall(proposal.name)).strip("_")
     written = f"{name}({', '.join(proposal.parameters)})"
-    if not re.match(r"^[A-Za-z]", name) or len(name) > _LONGEST_NAME:
+    if not name[:1].isalpha() or len(name) > _LONGEST_NAME:
         return f"{written}: expected a short name that starts with a letter"
     if not proposal.semantics:
         return f"{written}: expected a meaning after a colon, got none"
@@ -172,15 +174,13 @@ class _TypeResolver:
 
     @staticmethod
     def _readings(parameter: str) -> list[str]:
-        declared = re.split(r"\s+-\s+|:|\s+of type\s+|\s+as\s+", parameter, maxsplit=1)
-        inner = re.search(r"\(([^()]*)\)", parameter)
-        readings = [inner.group(1)] if inner else []
-        readings += [argument_value(part) for part in reversed(declared)]
-        return [text for text in readings if text]
+        _, opening, remark = parameter.partition("(")
+        remarks = (remark.partition(")")[0],) if opening else ()
+        return [*remarks, *argument_readings(parameter)]
 
     def _by_word(self, parameter: str) -> str | None:
         """``the_second_pickupable``: exactly one type among the words."""
-        words = {fold(w).rstrip("0123456789") for w in re.split(r"[\W_]+", parameter)}
+        words = {fold(w).rstrip("0123456789") for w in _WORD_PART.findall(parameter)}
         found = {self._meant[name] for name in self._meant if fold(name) in words}
         return found.pop() if len(found) == 1 else None
 

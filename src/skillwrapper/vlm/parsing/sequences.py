@@ -5,18 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from skillwrapper.vlm.parsing.calls import Call, find_calls
+from skillwrapper.vlm.parsing.calls import Call
 from skillwrapper.vlm.parsing.instances import InstanceReader
-from skillwrapper.vlm.parsing.lines import excerpt, leading_number, plain_lines, without_lead
-from skillwrapper.vlm.parsing.structured import flatten_json
+from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
+from skillwrapper.vlm.parsing.markup import Line
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
 
 _HEADING = re.compile(
-    r"^(?:(?:skill|exploratory|candidate|proposed|the)\s+)*"
+    r"(?:(?:skill|exploratory|candidate|proposed|the) ){0,3}"
     r"(?:sequence|plan|option|trajectory|episode|candidate|seq|set)s?"
-    r"(?:[\s_#(-]*\d{1,3}|[\s_#(-]+(?:[a-z]|one|two|three|four|five|six)\b)",
+    r"(?:[ _#(:-]{0,3}\d{1,3}|[ _#(:-]{1,3}(?:[a-z]|one|two|three|four|five|six)\b)",
     re.IGNORECASE,
 )
 
@@ -34,15 +35,13 @@ class ParsedSequences:
     unusable: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class _Line:
-    text: str
+class _Step(NamedTuple):
+    line: Line
     calls: tuple[Call, ...]
-    number: int | None
 
     @property
     def is_heading(self) -> bool:
-        return _HEADING.match(self.text) is not None
+        return _HEADING.match(self.line.text) is not None
 
 
 def parse_sequences(
@@ -50,7 +49,7 @@ def parse_sequences(
 ) -> ParsedSequences:
     """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
     reader = InstanceReader(skills, objects)
-    lines = [_read_line(line) for line in plain_lines(flatten_json(reply))]
+    lines = [_Step(line, tuple(reader.steps(line.text))) for line in reply_lines(reply)]
     sequences, unusable = [], []
     for group in _group(lines):
         steps = []
@@ -67,12 +66,7 @@ def parse_sequences(
     return ParsedSequences(tuple(sequences), tuple(unusable))
 
 
-def _read_line(line: str) -> _Line:
-    text = without_lead(line)
-    return _Line(text, tuple(find_calls(text)), leading_number(line))
-
-
-def _group(lines: list[_Line]) -> list[list[Call]]:
+def _group(lines: list[_Step]) -> list[list[Call]]:
     """Calls that belong together."""
     if any(line.is_heading for line in lines):
         return _split(lines, [line.is_heading for line in lines])
@@ -84,7 +78,7 @@ def _group(lines: list[_Line]) -> list[list[Call]]:
     return groups
 
 
-def _split(lines: list[_Line], starts: list[bool]) -> list[list[Call]]:
+def _split(lines: list[_Step], starts: list[bool]) -> list[list[Call]]:
     groups: list[list[Call]] = [[]]
     for line, starts_here in zip(lines, starts, strict=True):
         if starts_here:
@@ -93,14 +87,16 @@ def _split(lines: list[_Line], starts: list[bool]) -> list[list[Call]]:
     return [group for group in groups if group]
 
 
-def _starts_by_paragraph(lines: list[_Line]) -> list[bool]:
+def _starts_by_paragraph(lines: list[_Step]) -> list[bool]:
     starts = []
     last_number: int | None = None
     for line in lines:
         restarts = (
-            line.number is not None and last_number is not None and line.number <= last_number
+            line.line.number is not None
+            and last_number is not None
+            and line.line.number <= last_number
         )
-        starts.append(restarts or not line.text or set(line.text) <= set("[]{}, "))
-        if line.number is not None:
-            last_number = line.number
+        starts.append(restarts or not line.line.text or set(line.line.text) <= set("[]{}, "))
+        if line.line.number is not None:
+            last_number = line.line.number
     return starts
