@@ -23,6 +23,7 @@ from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.errors import MissingDependencyError, UnknownNameError
 from skillwrapper.grounding import GroundModel
 from skillwrapper.planning import (
+    Goal,
     KStar,
     Planner,
     PlannerSettings,
@@ -41,8 +42,7 @@ ENVIRONMENT = BurgerEnvironment()
 
 
 def holds(goal: str, state: BurgerState) -> bool:
-    true = set(expert_atoms(state))
-    return all((g.atom in true) == g.positive for g in parse_goal(goal, space()))
+    return parse_goal(goal, space()).holds(space(), labels(state))
 
 
 def costs_by_plan_topk(asked: PlanningProblem, folder: Path, **options: str) -> list[int]:
@@ -137,7 +137,8 @@ def test_unified_planning_validates_the_plan_on_the_lifted_domain() -> None:
 
     asked, model = problem(STANDARD_GOALS[2]), expert_model()
     (numbers, *_) = KStar.installed().search(asked, 1, 30.0).plans
-    printed = print_problem(model, model.domain.objects, expert_atoms(START), asked.goal)
+    (goal,) = asked.goal.alternatives
+    printed = print_problem(model, model.domain.objects, expert_atoms(START), goal)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         lifted = PDDLReader().parse_problem_string(print_domain(model), printed)
@@ -150,6 +151,45 @@ def test_unified_planning_validates_the_plan_on_the_lifted_domain() -> None:
         shortened = SequentialPlanValidator().validate(lifted, SequentialPlan(steps[1:]))
     assert verdict
     assert not shortened
+
+
+CHOICES = (
+    "(or (is_cut lettuce) (is_cooked patty))",
+    "(exists (?x - pickupable) (stacked_on ?x patty))",
+    "(imply (hand_empty robot) (and (is_cut lettuce) (not (on_station lettuce board))))",
+    "(forall (?x - cuttable) (exists (?y - pickupable) (and (not (= ?x ?y)) (stacked_on ?x ?y))))",
+)
+
+
+@pytest.mark.parametrize("goal", CHOICES)
+def test_goals_that_leave_a_choice(goal: str) -> None:
+    """The shortest plan is that of the nearest alternative, and all plans reach one."""
+    asked = problem(goal)
+    assert len(asked.goal.alternatives) > 1
+    result = Planner().solve(asked)
+    assert result.status is PlanningStatus.SOLVED
+    assert len(result.plans) == len(set(result.plans)) == 10
+    assert all(holds(goal, run(plan)) for plan in result.plans)
+    one_by_one = [
+        Planner(PlannerSettings(plans=1)).solve(replace(asked, goal=Goal((alternative,))))
+        for alternative in asked.goal.alternatives
+    ]
+    lengths = [len(found.plans[0]) for found in one_by_one if found.plans]
+    assert len(result.plans[0]) == min(lengths)
+
+
+def test_choices_cost_what_plan_topk_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert costs_by_us(problem(CHOICES[0])) == costs_by_plan_topk(problem(CHOICES[0]), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "goal",
+    ["(or (is_cut lettuce) (not (is_cut lettuce)))", "(or (hand_empty robot) (is_cut lettuce))"],
+)
+def test_goal_of_which_one_alternative_holds_already(goal: str) -> None:
+    result = Planner().solve(problem(goal))
+    assert (result.status, result.plans) == (PlanningStatus.SOLVED, ((),))
 
 
 def test_goal_that_holds_already() -> None:

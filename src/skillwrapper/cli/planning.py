@@ -10,7 +10,7 @@ import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.grounding import TRUE, AtomSpace
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.planning.execution import ExecutionReport, attempt
 from skillwrapper.planning.gif import save_gif
@@ -25,7 +25,7 @@ from skillwrapper.world.observation import Observation, load_picture
 
 RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
 GoalOption = Annotated[
-    str, typer.Option(help="A picture of the goal, or literals: '(and (p a) (not (q b)))'.")
+    str, typer.Option(help="A picture of the goal, or an expression: '(and (p a) (not (q b)))'.")
 ]
 GoalReading = Annotated[
     bool, typer.Option("--positive", help="Of a goal picture, take what is true only.")
@@ -123,7 +123,7 @@ class GoalReader:
             seen = Observation((load_picture(Path(goal)),))
             state = self.truth.labels(self.space, [seen])[0]
             return goal_from_state(self.space, state, positive_only=positive)
-        return parse_goal(goal, self.space)
+        return parse_goal(goal, self.space, self.learned.model.domain.types.names)
 
     def plan(
         self, planner: Planner, start: Observation, goal: Goal, keep: Path | None
@@ -136,8 +136,7 @@ class GoalReader:
     def holds(self, environment: Environment, goal: Goal) -> bool:
         """Whether the goal is read off what is seen now."""
         state = self.truth.labels(self.space, [environment.observe()])[0]
-        column = self.space.column
-        return all((state[column[x.atom]] == TRUE) == x.positive for x in goal)
+        return goal.holds(self.space, state)
 
 
 def _describe(found: PlanningResult) -> dict[str, object]:
@@ -146,6 +145,7 @@ def _describe(found: PlanningResult) -> dict[str, object]:
         "plans": [[str(instance) for instance in skills] for skills in found.plans],
         "seconds": round(found.seconds, 4),
         "guessed": [str(atom) for atom in found.guessed],
+        "error": found.cause,
     }
 
 

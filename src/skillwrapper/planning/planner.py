@@ -10,6 +10,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, Field
 
 from skillwrapper.grounding import GroundModel, Labels
+from skillwrapper.planning.goals import Goal
 from skillwrapper.planning.kstar import KStar, SearchOutcome
 from skillwrapper.planning.problem import PlanningProblem
 from skillwrapper.planning.problem_pddl import write_pddl
@@ -57,7 +58,7 @@ class Planner:
         model: AbstractModel,
         objects: Sequence[Object],
         initial: Labels,
-        goal: Iterable[Literal],
+        goal: Goal | Iterable[Literal],
         *,
         keep_files: Path | None = None,
     ) -> PlanningResult:
@@ -67,7 +68,7 @@ class Planner:
             model: the abstract model.
             objects: the objects of the scene.
             initial: labels of the atoms over the objects (shape: atoms); unknown counts as false.
-            goal: ground literals to reach.
+            goal: a goal, or ground literals that must all hold.
             keep_files: a folder to write the problem into as PDDL.
 
         Raises:

@@ -19,6 +19,7 @@ from skillwrapper.grounding import (
     Labels,
 )
 from skillwrapper.grounding.ground_operators import follow, reachable_operators
+from skillwrapper.planning.goals import Goal
 from skillwrapper.symbols.predicates import Atom, Literal
 from skillwrapper.world.skills import SkillInstance
 
@@ -32,29 +33,31 @@ class PlanningProblem:
         actions: the ground operators that may ever apply, in the order of the model, each once.
         initial: the abstract state to start from, of TRUE and FALSE only (shape: atoms).
         guessed: atoms that were unknown at the start and are taken as false.
-        goal: the ground literals to reach.
+        goal: what to reach.
     """
 
     space: AtomSpace
     actions: tuple[GroundOperator, ...]
     initial: Labels
     guessed: tuple[Atom, ...]
-    goal: frozenset[Literal]
+    goal: Goal
 
     @classmethod
-    def of(cls, model: GroundModel, initial: Labels, goal: Iterable[Literal]) -> PlanningProblem:
+    def of(
+        cls, model: GroundModel, initial: Labels, goal: Goal | Iterable[Literal]
+    ) -> PlanningProblem:
         """Put a problem together.
 
         Args:
             model: the ground operators of the scene.
             initial: TRUE, FALSE or UNKNOWN for every atom (shape: atoms).
-            goal: ground literals.
+            goal: a goal, or ground literals that must all hold.
 
         Raises:
             UnknownNameError: if a goal atom is not one of the scene.
         """
-        wanted = frozenset(goal)
-        for literal in sorted(wanted):
+        wanted = goal if isinstance(goal, Goal) else Goal.all_of(goal)
+        for literal in sorted(frozenset().union(*wanted.alternatives)):
             if literal.atom not in model.space.column:
                 raise UnknownNameError(
                     "ground atom", str(literal.atom), map(str, model.space.atoms)
@@ -69,23 +72,23 @@ class PlanningProblem:
         )
 
     @property
-    def goal_columns(self) -> dict[int, int]:
-        """The column of every goal atom and the value it must have."""
+    def goal_columns(self) -> tuple[dict[int, int], ...]:
+        """For each alternative of the goal, the columns of its atoms and the values they need."""
         column = self.space.column
-        return {column[g.atom]: TRUE if g.positive else FALSE for g in sorted(self.goal)}
+        return tuple(
+            {column[x.atom]: TRUE if x.positive else FALSE for x in sorted(literals)}
+            for literals in self.goal.alternatives
+        )
 
     @property
     def is_solved(self) -> bool:
         """Whether the goal holds at the start."""
-        return self._is_goal(self.initial)
-
-    def _is_goal(self, state: Labels) -> bool:
-        return all(state[column] == value for column, value in self.goal_columns.items())
+        return self.goal.holds(self.space, self.initial)
 
     def is_plan(self, action_numbers: Sequence[int]) -> bool:
         """Whether the actions, one after the other, are applicable and lead to the goal."""
         end = follow((self.actions[number] for number in action_numbers), self.initial)
-        return end is not None and self._is_goal(end)
+        return end is not None and self.goal.holds(self.space, end)
 
     def skills(self, action_numbers: Sequence[int]) -> tuple[SkillInstance, ...]:
         """The skill instances of a plan given as positions in ``actions``."""

@@ -1,6 +1,7 @@
 """Planning problems as PDDL files that any planner takes: no variables, no quantifiers.
 
-A last action stands for the goal, because K* refuses negative goals (docs/semantics.md, D12).
+A last action stands for each alternative of the goal, because K* refuses negative goals
+(docs/semantics.md, D12).
 """
 
 from __future__ import annotations
@@ -10,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from skillwrapper.grounding import TRUE, GroundOperator
-from skillwrapper.planning.problem import FINISH, PlanningProblem, action_name
-from skillwrapper.symbols.pddl_names import unique_names
+from skillwrapper.planning.problem import PlanningProblem, action_name, finish_name
+from skillwrapper.symbols.pddl import comment
+from skillwrapper.symbols.pddl_names import unique_name
 
 _OPEN, _DONE = "open", "done"
 
@@ -40,9 +42,10 @@ def write_pddl(problem: PlanningProblem, folder: Path) -> PlannerFiles:
 
 
 def _atom_names(problem: PlanningProblem) -> tuple[str, ...]:
-    taken = {_OPEN, _DONE, FINISH}
+    taken = {_OPEN, _DONE, *map(action_name, range(len(problem.actions)))}
+    taken |= set(map(finish_name, range(len(problem.goal.alternatives))))
     learned = ("--".join((atom.predicate, *atom.terms)) for atom in problem.space.atoms)
-    return tuple(next(iter(unique_names([name], taken).values())) for name in learned)
+    return tuple(unique_name(name, taken) for name in learned)
 
 
 @dataclass(frozen=True)
@@ -61,10 +64,11 @@ class _Printer:
             "  )",
         ]
         for number, action in enumerate(self.task.actions):
-            lines += [f"  ; {action.instance}"]
+            lines += [f" {comment(str(action.instance))}"]
             lines += _action(action_name(number), self._needs(action), self._changes(action))
-        goal = self._literals(self.task.goal_columns.items())
-        lines += _action(FINISH, [f"({_OPEN})", *goal], [f"(not ({_OPEN}))", f"({_DONE})"])
+        for number, columns in enumerate(self.task.goal_columns):
+            needs = [f"({_OPEN})", *self._literals(columns.items())]
+            lines += _action(finish_name(number), needs, [f"(not ({_OPEN}))", f"({_DONE})"])
         return "\n".join(lines) + "\n)\n"
 
     def problem(self) -> str:

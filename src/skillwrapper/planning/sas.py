@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from skillwrapper.grounding import TRUE, GroundOperator
-from skillwrapper.planning.problem import FINISH, PlanningProblem, action_name
+from skillwrapper.planning.problem import PlanningProblem, action_name, finish_name
 
 _HOLDS, _FAILS = 0, 1
 _STAGE, _OPEN, _DONE = 0, 1, 0
@@ -51,11 +51,10 @@ class SasOperator:
 def print_sas(problem: PlanningProblem) -> str:
     """The problem as text for the planner's search."""
     operators = [_operator(n, action) for n, action in enumerate(problem.actions)]
-    goal = {column + 1: _value(v) for column, v in problem.goal_columns.items()}
-    finish = SasOperator(FINISH, {_STAGE: _OPEN, **goal}, (SasEffect((), _STAGE, _DONE),))
-    relevant = _relevant_variables([*operators, finish])
+    finishes = [_finish(n, columns) for n, columns in enumerate(problem.goal_columns)]
+    relevant = _relevant_variables([*operators, *finishes])
     operators = [_restricted(operator, relevant) for operator in operators]
-    kept = [operator for operator in [*operators, finish] if operator.effects]
+    kept = [operator for operator in [*operators, *finishes] if operator.effects]
     initial = [_OPEN, *(_value(v) for v in problem.initial)]
     number = {variable: position for position, variable in enumerate(sorted(relevant))}
     lines = ["begin_version", "3", "end_version", "begin_metric", "0", "end_metric"]
@@ -68,6 +67,11 @@ def print_sas(problem: PlanningProblem) -> str:
 
 def _value(label: int) -> int:
     return _HOLDS if label == TRUE else _FAILS
+
+
+def _finish(number: int, goal: dict[int, int]) -> SasOperator:
+    needs = {_STAGE: _OPEN} | {column + 1: _value(label) for column, label in goal.items()}
+    return SasOperator(finish_name(number), needs, (SasEffect((), _STAGE, _DONE),))
 
 
 def _operator(number: int, action: GroundOperator) -> SasOperator:

@@ -53,7 +53,7 @@ class _Printer:
         actions = [self._action(o) for o in sorted(self.model.operators, key=lambda o: o.name)]
         parts = [
             *(
-                f" {_comment(f'{kind} {learned} is written {safe}')}"
+                f" {comment(f'{kind} {learned} is written {safe}')}"
                 for kind, learned, safe in self.names.altered
             ),
             f"  (:requirements {' '.join(self._requirements())})",
@@ -130,9 +130,9 @@ class _Printer:
         for static in self.types.static:
             meaning = self.model.domain.types.descriptions.get(static, "")
             variable = self._typed("?any", self._above(static))
-            yield f"    ({self.names.types[static]} {variable}){_comment(meaning)}"
+            yield f"    ({self.names.types[static]} {variable}){comment(meaning)}"
         for predicate in sorted(self.model.predicates):
-            yield f"    {self._signature(predicate)}{_comment(predicate.semantics)}"
+            yield f"    {self._signature(predicate)}{comment(predicate.semantics)}"
         yield "  )"
 
     def _above(self, static: str) -> tuple[str, ...]:
@@ -247,6 +247,7 @@ def _clause(title: str, parts: Iterable[str]) -> list[str]:
     return [f"    {title} (and", *(f"      {part}" for part in parts), "    )"]
 
 
-def _comment(text: str) -> str:
+def comment(text: str) -> str:
+    """A text as a comment that ends a line; nothing for nothing."""
     line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
     return f" ; {line}" if line else ""
