@@ -151,6 +151,10 @@ class UnusableReplyError(TemporaryProviderError):
         self.kind, self.text, self.usage = kind, text, usage
 
 
+class ReplyCutOffError(ProviderError):
+    """Replies to one question ended at the output limit twice; the message says which to raise."""
+
+
 class RecordingError(ProviderError):
     """A recorded run was asked something that was never asked when it was recorded."""
 

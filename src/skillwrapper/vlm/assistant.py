@@ -15,6 +15,7 @@ from skillwrapper.invention.questions import (
 from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
 from skillwrapper.symbols.predicates import Predicate
+from skillwrapper.vlm.cut_offs import CUT_OFF_PROBLEM, CutOffs
 from skillwrapper.vlm.evaluation import Evaluator
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.parsing import (
@@ -111,13 +112,13 @@ class Assistant:
         usable: Callable[[Parsed], bool],
     ) -> Parsed:
         """The first usable reading of a reply, or the last one if none is."""
-        parsed, good = self._try(request, parse, usable)
-        for time in range(1, 1 + self._settings.unusable_reasks):
-            if good:
+        cut_offs = CutOffs()
+        asked = request
+        for time in range(1, 2 + self._settings.unusable_reasks):
+            parsed, problem = self._try(asked, parse, usable, cut_offs)
+            if not problem:
                 break
-            problem = parsed.unusable[0] if parsed.unusable else "it holds nothing usable"
-            again = self._requests.again(request, problem, time)
-            parsed, good = self._try(replace(again, repetition=time), parse, usable)
+            asked = replace(self._requests.again(request, problem, time), repetition=time)
         return parsed
 
     def _try(
@@ -125,16 +126,20 @@ class Assistant:
         request: ModelRequest,
         parse: Callable[[str], Parsed],
         usable: Callable[[Parsed], bool],
-    ) -> tuple[Parsed, bool]:
-        """The reading of one reply, and whether it is of use; if not, the reply is taken back."""
+        cut_offs: CutOffs,
+    ) -> tuple[Parsed, str]:
+        """The reading of one reply, and why it is of no use; the reply is then taken back."""
         reply = self._models.complete(request)
-        parsed = parse(reply.text)
+        is_cut_off = cut_offs.check(self._models.by_role[request.role], request, reply)
+        parsed = parse("" if is_cut_off else reply.text)
         if not usable(parsed):
             self._models.take_back(request)
-            return parsed, False
+            found = parsed.unusable[0] if parsed.unusable else "it holds nothing usable"
+            return parsed, CUT_OFF_PROBLEM if is_cut_off else found
         if reply.taken_back:  # another version of the parser could not read it
-            return parse(""), False
-        return parsed, True
+            parsed = parse("")
+            return parsed, parsed.unusable[0]
+        return parsed, ""
 
 
 def _parameter_names(slots: Iterable[Slot], aliases: Mapping[str, str]) -> ParameterNames:

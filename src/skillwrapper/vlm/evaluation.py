@@ -9,6 +9,7 @@ from functools import lru_cache
 
 from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.symbols.predicates import Atom, Predicate, all_groundings
+from skillwrapper.vlm.cut_offs import CUT_OFF_PROBLEM, CutOffs
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.parsing import parse_labels
 from skillwrapper.vlm.parsing.names import fold
@@ -63,35 +64,42 @@ class Evaluator:
         labels: _Labels = {}
         missing, problem = task.atoms, ""
         incomplete = unusable = 0
+        cut_offs = CutOffs()
         while missing:
-            labels.update(self._ask(task, missing, incomplete + unusable, problem))
+            found, cut_off = self._ask(task, missing, incomplete + unusable, problem, cut_offs)
+            labels.update(found)
             incomplete, unusable = incomplete + bool(labels), unusable + (not labels)
             missing = tuple(atom for atom in missing if atom not in labels)
-            problem = f"no clear judgement on {', '.join(map(str, missing[:3]))}"
+            unclear = f"no clear judgement on {', '.join(map(str, missing[:3]))}"
+            problem = CUT_OFF_PROBLEM if cut_off else unclear
             if incomplete > self._settings.reasks or unusable > self._settings.unusable_reasks:
                 break
         return {atom: labels.get(atom) for atom in task.atoms}
 
     def _ask(
-        self, task: _Task, atoms: tuple[Atom, ...], time: int, problem: str
-    ) -> Mapping[Atom, bool | None]:
-        """Both stages once: the labels that were found; none if the replies are of no use."""
+        self, task: _Task, atoms: tuple[Atom, ...], time: int, problem: str, cut_offs: CutOffs
+    ) -> tuple[Mapping[Atom, bool | None], bool]:
+        """Both stages once: the labels that were found, and whether a reply was cut off.
+
+        There are none if the replies are of no use.
+        """
         repetition = task.vote * self._settings.most_repetitions + time
         judging = self._again(self._requests.evaluation(task.question, atoms), problem, time)
         judging = replace(judging, repetition=repetition)
         free = self._models.complete(judging)
-        if free.taken_back or not _speaks_of_scene(free.text, task.question):
+        cut_off = cut_offs.check(self._models.by_role[judging.role], judging, free)
+        if cut_off or free.taken_back or not _speaks_of_scene(free.answer, task.question):
             self._models.take_back(judging)
-            return {}
-        summing = self._requests.summary(task.question, atoms, free.text)
+            return {}, cut_off
+        summing = self._requests.summary(task.question, atoms, free.answer)
         summing = replace(self._again(summing, problem, time), repetition=repetition)
         summary = self._models.complete(summing)
-        parsed = parse_labels(summary.text, atoms)
-        if summary.taken_back or not parsed.labels:
+        cut_off = cut_offs.check(self._models.by_role[summing.role], summing, summary)
+        labels = {} if cut_off or summary.taken_back else parse_labels(summary.text, atoms).labels
+        if not labels:
             self._models.take_back(judging)
             self._models.take_back(summing)
-            return {}
-        return parsed.labels
+        return labels, cut_off
 
     def _again(self, request: ModelRequest, problem: str, time: int) -> ModelRequest:
         return self._requests.again(request, problem, time) if time else request

@@ -53,7 +53,12 @@ class RecordedModel:
                 f"in the recorded run: '{_first_line(request.prompt)}'; run with the "
                 "configuration and the prompts of the recording, or with another model"
             )
-        return ModelReply(call.reply, call.usage, call.status is CallStatus.UNUSABLE)
+        return ModelReply(
+            call.reply,
+            call.usage,
+            taken_back=call.status.is_taken_back,
+            cut_off=call.status is CallStatus.PASSED_OVER,
+        )
 
     def close(self) -> None:
         """Close the recording."""

@@ -6,7 +6,7 @@ import sqlite3
 import threading
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
@@ -61,6 +61,7 @@ CREATE TABLE IF NOT EXISTS served (
 """
 _INSERT = f"INSERT INTO calls ({COLUMNS}) VALUES ({', '.join('?' * 17)})"
 _INSERT_SERVED = "INSERT INTO served (role, iteration, times) VALUES (?, ?, ?)"
+_SERVED = (CallStatus.ANSWERED, CallStatus.UNUSABLE, CallStatus.PASSED_OVER)
 
 
 class CallStore:
@@ -98,15 +99,19 @@ class CallStore:
         self.close()
 
     def find(self, key: str) -> StoredCall | None:
-        """What became of a call: its first answer, or else its first unusable reply.
+        """What became of a call: its first answer, or else its first reply that was taken back.
 
-        None if neither is there; refused and empty replies are asked for again.
+        None if neither is there; refused, empty and cut-off replies are asked for again.
         """
         return self._find("key", key)
 
     def find_question(self, question: str) -> StoredCall | None:
         """The same for a question, whichever model was asked."""
         return self._find("question", question)
+
+    def find_cut_off(self, key: str) -> StoredCall | None:
+        """The first reply to a call that was cut off and not taken back."""
+        return self._find("key", key, (CallStatus.CUT_OFF,))
 
     def add(self, call: StoredCall) -> None:
         """Keep a call."""
@@ -120,12 +125,12 @@ class CallStore:
             if time.monotonic() - self._last_count >= _COUNT_EVERY:
                 self.flush()
 
-    def mark_unusable(self, key: str, reply: str) -> None:
-        """Never serve a reply to a call as an answer; it is kept."""
+    def mark_unusable(self, call: StoredCall) -> None:
+        """Never serve the reply to a call as an answer; it is kept."""
         with self._guarded() as connection, connection:
             connection.execute(
                 "UPDATE calls SET status = ? WHERE key = ? AND status = ? AND reply = ?",
-                (CallStatus.UNUSABLE, key, CallStatus.ANSWERED, reply),
+                (call.status.after_taking_back, call.key, call.status, call.reply),
             )
 
     def calls(
@@ -174,12 +179,15 @@ class CallStore:
                 self.flush()
             self._connection.close()
 
-    def _find(self, column: str, value: str) -> StoredCall | None:
+    def _find(
+        self, column: str, value: str, statuses: Sequence[CallStatus] = _SERVED
+    ) -> StoredCall | None:
+        places = ", ".join("?" * len(statuses))
         with self._guarded() as connection:
             row = connection.execute(
-                f"SELECT {COLUMNS} FROM calls WHERE {column} = ? AND status IN (?, ?)"
-                " ORDER BY status = ?, number LIMIT 1",
-                (value, CallStatus.ANSWERED, CallStatus.UNUSABLE, CallStatus.UNUSABLE),
+                f"SELECT {COLUMNS} FROM calls WHERE {column} = ? AND status IN ({places})"
+                " ORDER BY status <> ?, number LIMIT 1",
+                (value, *statuses, CallStatus.ANSWERED),
             ).fetchone()
         return call_of(row) if row else None
 

@@ -18,12 +18,28 @@ COLUMNS = (
 
 
 class CallStatus(StrEnum):
-    """What became of a call; only what is answered is ever served again."""
+    """What became of a call; only what is answered is ever served as an answer.
+
+    Cut-off replies are asked for again, unless one was passed over: then who asked has gone on with
+    the next repetition, and does so again.
+    """
 
     ANSWERED = "answered"
     REFUSED = "refused"
     EMPTY = "empty"
     UNUSABLE = "unusable"
+    CUT_OFF = "cut-off"
+    PASSED_OVER = "cut-off-passed-over"
+
+    @property
+    def is_taken_back(self) -> bool:
+        """Whether the reply is met again, though never as an answer."""
+        return self in {CallStatus.UNUSABLE, CallStatus.PASSED_OVER}
+
+    @property
+    def after_taking_back(self) -> CallStatus:
+        """What becomes of a call whose reply is of no use."""
+        return CallStatus.PASSED_OVER if self is CallStatus.CUT_OFF else CallStatus.UNUSABLE
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from skillwrapper.errors import UnusableReplyError
+from skillwrapper.vlm.answers import clean_text
 from skillwrapper.vlm.call_key import call_key, question_key
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
 from skillwrapper.vlm.store import CallStore
@@ -55,12 +56,12 @@ class StoredModel(ModelWrapper):
     def take_back(self, request: ModelRequest) -> None:
         """Record that the reply to a request was of no use."""
         key = self._key(request)
-        known = self._store.find(key)
-        if known is None or known.status is CallStatus.UNUSABLE:
+        known = self._store.find(key) or self._store.find_cut_off(key)
+        if known is None or known.status.is_taken_back:
             return
-        self._store.mark_unusable(key, known.reply)
+        self._store.mark_unusable(known)
         if self._shared is not None:
-            self._shared.mark_unusable(key, known.reply)
+            self._shared.mark_unusable(known)
 
     def _served(self, key: str, request: ModelRequest) -> ModelReply | None:
         known = self._store.find(key)
@@ -72,16 +73,22 @@ class StoredModel(ModelWrapper):
             return None
         self._store.count_served(request.role, self._iteration())
         usage = replace(known.usage, cost=0.0, seconds=0.0)
-        return ModelReply(known.reply, usage, known.status is CallStatus.UNUSABLE)
+        return ModelReply(
+            known.reply,
+            usage,
+            taken_back=known.status.is_taken_back,
+            cut_off=known.status is CallStatus.PASSED_OVER,
+        )
 
     def _asked(self, key: str, request: ModelRequest) -> ModelReply:
         try:
             reply = self._model.complete(request)
         except UnusableReplyError as error:
             status = CallStatus.REFUSED if error.kind == "refused" else CallStatus.EMPTY
-            self._record(key, request, status, error.text, error.usage or Usage())
+            self._record(key, request, status, clean_text(error.text), error.usage or Usage())
             raise
-        self._record(key, request, CallStatus.ANSWERED, reply.text, reply.usage)
+        status = CallStatus.CUT_OFF if reply.cut_off else CallStatus.ANSWERED
+        self._record(key, request, status, reply.text, reply.usage)
         return reply
 
     def _record(
@@ -103,7 +110,7 @@ class StoredModel(ModelWrapper):
             usage=usage,
         )
         self._store.add(call)
-        if self._shared is not None and status is CallStatus.ANSWERED:
+        if self._shared is not None and status in {CallStatus.ANSWERED, CallStatus.CUT_OFF}:
             self._shared.add(replace(call, iteration=None))
 
     def _key(self, request: ModelRequest) -> str:
