@@ -13,7 +13,7 @@ import numpy as np
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.grounding import AtomSpace
-from skillwrapper.learning.fitting import fit_skill
+from skillwrapper.learning.faithful import fit_skill
 from skillwrapper.learning.operators import cluster_operators
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.tables import SkillTable

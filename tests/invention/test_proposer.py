@@ -9,7 +9,7 @@ from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Atom, Predicate
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world import (
     Domain,
     Episode,
@@ -61,13 +61,13 @@ def transition(number: int, success: bool) -> Transition:
 def ask(
     kind: InconsistencyKind, *unexplained: Atom
 ) -> tuple[InventionQuestion, tuple[Transition, ...]]:
-    dataset = Dataset(KITCHEN)
+    recorded = RecordedTransitions(KITCHEN)
     transitions = (transition(0, True), transition(1, False))
-    dataset.add(Episode(KITCHEN.scene(), 0, transitions))
+    recorded.add(Episode(KITCHEN.scene(), 0, transitions))
     second = None if kind is InconsistencyKind.UNEXPLAINED else 1
     one = Inconsistency(kind, "Swap", 0, second, 0, ("Swap", kind, (), ()), unexplained)
     adviser = Adviser()
-    found = ModelProposer(dataset, adviser, 4).propose(one, [KNOWN], [BAD], attempt=2)
+    found = ModelProposer(recorded, adviser, 4).propose(one, [KNOWN], [BAD], attempt=2)
     assert found == (NEW,)
     return adviser.questions[0], transitions
 

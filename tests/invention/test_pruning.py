@@ -163,9 +163,9 @@ def test_burdens_are_those_of_weighing_every_vocabulary_in_full(seeds: list[int]
     """One that is known to be dearer is not weighed to its end."""
     notebook = Notebook(DOMAIN, *PREDICATES)
     for seed in seeds:
-        records = random_notebook(seed).dataset.records
+        records = random_notebook(seed).recorded.records
         for record in records:
-            notebook.dataset.add(Episode(record.scene, 0, (record.transition,)))
+            notebook.recorded.add(Episode(record.scene, 0, (record.transition,)))
     fitter = notebook.fitter()
     remaining, weighed = PREDICATES, [PREDICATES]
     while remaining:

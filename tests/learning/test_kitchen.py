@@ -5,27 +5,29 @@ from __future__ import annotations
 from kitchen import DOMAIN, POOL, STATES, Eye, Thinker, compare, explore
 
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.inventor import Inventor
 from skillwrapper.invention.pruning import prune
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.certification import certify
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.faithful import FaithfulLearner
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 
 
 def learn(seed: int, iterations: int = 10, budget: int = 30) -> Fit:
     """Algorithm 1 with random exploration."""
-    dataset = Dataset(DOMAIN)
-    fitter = Fitter(DOMAIN, dataset, Eye())
+    recorded = RecordedTransitions(DOMAIN)
+    fitter = Fitter(Labeller(recorded, Eye()), FaithfulLearner())
     vocabulary = Vocabulary(DOMAIN.types)
-    inventor = Inventor(fitter, vocabulary, Thinker(dataset, seed), LearningSettings())
+    inventor = Inventor(fitter, vocabulary, Thinker(recorded, seed), LearningSettings())
     for iteration in range(iterations):
-        dataset.add(explore(budget, seed * 100 + iteration))
+        recorded.add(explore(budget, seed * 100 + iteration))
         inventor.invent()
         prune(fitter, vocabulary)
-        fitter.forget()
     return fitter.fit(vocabulary.active)
 
 
@@ -44,10 +46,10 @@ def test_expert_vocabulary_needs_no_invention() -> None:
     """The relation that the simulator's own predicates lack is added: nothing lies on it."""
     words = {c.predicate.name: c.predicate for c in POOL}
     vocabulary = [words[p.name] for p in (*SYSTEM_PREDICATES, Predicate("nothing_on", ()))]
-    dataset = Dataset(DOMAIN)
+    recorded = RecordedTransitions(DOMAIN)
     for number in range(10):
-        dataset.add(explore(30, number))
-    fit = Fitter(DOMAIN, dataset, Eye()).fit(vocabulary)
+        recorded.add(explore(30, number))
+    fit = Fitter(Labeller(recorded, Eye()), FaithfulLearner()).fit(vocabulary)
     assert fit.inconsistencies == ()
     assert certify(fit).violations == ()
     score = compare(fit.model)

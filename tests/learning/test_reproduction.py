@@ -37,7 +37,7 @@ def test_a_success_lacks_an_operator_only_if_its_change_is_unexplained(notebook:
 def test_consistent_data_obey_theorem_1(notebook: Notebook) -> None:
     fit = notebook.fit()
     certificate = certify(fit)
-    assert certificate.decided == certificate.transitions == len(notebook.dataset)
+    assert certificate.decided == certificate.transitions == len(notebook.recorded)
     assert not [v for v in unaccounted(fit) if v.statement == "theorem1"]
 
 

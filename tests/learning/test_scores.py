@@ -18,7 +18,7 @@ HELD = Predicate("held", ("item",))
 FREE = Predicate("free", ("place",))
 
 
-def scores(notebook: Notebook) -> tuple[float, float]:
+def scores(notebook: Notebook) -> tuple[float | None, float | None]:
     """Executability, effects."""
     fit = notebook.fit_skill("Take")
     return fit.score(InconsistencyKind.PRECONDITION), fit.score(InconsistencyKind.EFFECT)
@@ -72,8 +72,12 @@ def test_a_success_that_changes_nothing_visible_is_no_example_of_an_effect() -> 
     assert scores(notebook) == (1.0, 1.0)
 
 
-def test_without_data_there_is_nothing_wrong() -> None:
-    assert scores(Notebook(KITCHEN, HELD)) == (1.0, 1.0)
+def test_without_a_decided_transition_there_is_no_score() -> None:
+    """D25: an undefined figure is undefined, never 1."""
+    notebook = Notebook(KITCHEN, HELD)
+    assert scores(notebook) == (None, None)
+    notebook.failure("?held(a)", "Take(r, a)", "?held(a)")
+    assert scores(notebook)[1] is None
 
 
 @pytest.mark.parametrize("kind", list(InconsistencyKind))

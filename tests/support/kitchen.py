@@ -22,7 +22,7 @@ from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import AbstractModel, Predicate
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world import (
     Domain,
     Episode,
@@ -158,8 +158,8 @@ def _read(predicate: Predicate, objects: tuple[object, ...], state: BurgerState)
 class Thinker:
     """Proposes concepts of the pool that tell two transitions apart (``Proposer``)."""
 
-    def __init__(self, dataset: Dataset, seed: int, count: int = 3) -> None:
-        self._dataset = dataset
+    def __init__(self, recorded: RecordedTransitions, seed: int, count: int = 3) -> None:
+        self._recorded = recorded
         self._chance = random.Random(seed)
         self._count = count
 
@@ -180,7 +180,7 @@ class Thinker:
         return chosen
 
     def _tells(self, concept: Concept, inconsistency: Inconsistency) -> bool:
-        first = self._dataset.records[inconsistency.first].transition
+        first = self._recorded.records[inconsistency.first].transition
         if inconsistency.second is None:
             objects = {t for a in inconsistency.unexplained for t in a.terms}
             return concept.predicate.arity == 2 and any(
@@ -190,7 +190,7 @@ class Thinker:
                 for pair in ((argument, other), (other, argument))
                 if _fits(concept, pair)
             )
-        second = self._dataset.records[inconsistency.second].transition
+        second = self._recorded.records[inconsistency.second].transition
         effect = inconsistency.kind is InconsistencyKind.EFFECT
         return _view(concept, first, effect=effect) != _view(concept, second, effect=effect)
 

@@ -13,9 +13,12 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
-from skillwrapper.learning.fitting import Fit, Fitter, SkillFit, fit_skill
+from skillwrapper.invention.fitter import Fitter
+from skillwrapper.learning.faithful import FaithfulLearner, fit_skill
+from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Atom, Predicate
-from skillwrapper.transitions.dataset import Dataset, Reading
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.transitions.tables import SkillData
 from skillwrapper.world import (
     Domain,
@@ -76,7 +79,7 @@ def picture(state: str) -> Observation:
 
 
 class Notebook:
-    """A data set and the truth about its pictures (``TruthSource``).
+    """Recorded transitions and the truth about its pictures (``TruthSource``).
 
     Attributes:
         asked: for every call of ``labels`` the names of the predicates and how many pictures.
@@ -86,25 +89,30 @@ class Notebook:
     def __init__(self, domain: Domain, *predicates: Predicate) -> None:
         self.domain = domain
         self.predicates = predicates
-        self.dataset = Dataset(domain)
+        self.recorded = RecordedTransitions(domain)
         self.asked: list[tuple[str, int]] = []
         self.fetched: list[tuple[str, int]] = []
 
-    def success(self, before: str, skill: str, after: str) -> None:
-        self.episode((before, skill, True, after))
+    def success(self, before: str, skill: str, after: str, *, changed: bool | None = None) -> None:
+        self.episode((before, skill, True, after), changed=changed)
 
     def failure(self, before: str, skill: str, after: str | None = None) -> None:
         self.episode((before, skill, False, before if after is None else after))
 
-    def episode(self, *steps: tuple[str, str, bool, str], scene: Iterable[str] = ()) -> None:
+    def episode(
+        self,
+        *steps: tuple[str, str, bool, str],
+        scene: Iterable[str] = (),
+        changed: bool | None = None,
+    ) -> None:
         """Add an episode of (before, skill instance, success, after)."""
         names = tuple(scene)
         present = Scene.of(" ".join(names), names, self.domain.objects)
         transitions = tuple(
-            Transition(picture(before), instance(skill), success, picture(after))
+            Transition(picture(before), instance(skill), success, picture(after), changed)
             for before, skill, success, after in steps
         )
-        self.dataset.add(Episode(present if names else self.domain.scene(), 0, transitions))
+        self.recorded.add(Episode(present if names else self.domain.scene(), 0, transitions))
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         for space, observations in wanted:
@@ -116,14 +124,14 @@ class Notebook:
         return np.array(rows, dtype=np.int8).reshape(len(observations), len(space.atoms))
 
     def fitter(self) -> Fitter:
-        return Fitter(self.domain, self.dataset, self)
+        return Fitter(Labeller(self.recorded, self), FaithfulLearner())
 
     def fit(self, *predicates: Predicate) -> Fit:
         """All skills, with the given predicates or those of the notebook."""
         return self.fitter().fit(predicates or self.predicates)
 
     def data(self, skill: str) -> SkillData:
-        return Reading(self.dataset, self).skill_data(skill, self.predicates)
+        return Labeller(self.recorded, self).label(self.predicates).of_skill(skill)
 
     def fit_skill(self, skill: str) -> SkillFit:
         """One skill, tautologies included."""

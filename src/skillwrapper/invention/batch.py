@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.inventor import CandidateDecision, Verdict
 from skillwrapper.invention.questions import BatchInventionQuestion, InventionAnswer
 from skillwrapper.invention.vocabulary import Vocabulary
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.fitting import Fit
 
 
 class BatchAdviser(Protocol):
@@ -58,9 +59,9 @@ class BatchInventor:
         return self._fitter.fit(self._vocabulary.active)
 
     def _ask(self) -> None:
-        dataset = self._fitter.dataset
-        observations = tuple(o for scene in dataset.scenes for o in dataset.observations(scene))
-        question = BatchInventionQuestion(dataset.domain, observations, self._count)
+        recorded = self._fitter.recorded
+        observations = tuple(o for scene in recorded.scenes for o in recorded.observations(scene))
+        question = BatchInventionQuestion(recorded.domain, observations, self._count)
         for predicate in self._vocabulary.fresh(self._adviser.invent_batch(question).predicates):
             self._vocabulary.accept(predicate)
             reason = "one of the batch"

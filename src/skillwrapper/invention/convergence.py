@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from skillwrapper.grounding import TRUE, UNKNOWN
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.invention.fitter import Fitter
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.predictions import TablePrediction, predict
 
 
@@ -23,7 +24,7 @@ class Convergence:
 
     def remember(self, fit: Fit) -> None:
         """Note what an iteration ended with."""
-        self._before, self._size = fit, len(self._fitter.dataset)
+        self._before, self._size = fit, len(self._fitter.recorded)
 
     def is_reached(self) -> bool:
         """Whether what was recorded since brought no new inconsistency and no surprise.
@@ -48,8 +49,9 @@ class Convergence:
         if before is None:
             return 0
         errors = 0
+        transitions = self._fitter.labeller.label(before.predicates)
         for name, fit in before.skills.items():
-            data = self._fitter.reading.skill_data(name, before.predicates)
+            data = transitions.of_skill(name)
             new = tuple(table.select(table.ids >= self._size) for table in data)
             errors += sum(map(_wrong, predict(new, fit.operators)))
         return errors

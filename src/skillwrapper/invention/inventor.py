@@ -7,13 +7,13 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property
 from typing import Protocol
 
 from skillwrapper.grounding import UNKNOWN, AtomSpace, Labels
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.pruning import find_burdens
 from skillwrapper.invention.vocabulary import Vocabulary
-from skillwrapper.learning.fitting import OPERATOR_COST, Fit, Fitter, SkillFit
+from skillwrapper.learning.fitting import OPERATOR_COST, Fit, SkillFit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
@@ -57,7 +57,7 @@ class CandidateDecision:
         predicate: the candidate.
         inconsistency: what it was asked for; None for a retracted one.
         score: its score on the transitions of the inconsistency's skill, 0 to 1; None if it
-            was rejected before all pictures were labelled.
+            was rejected before all pictures were labelled, or if no transition is decided.
         reason: for people.
     """
 
@@ -74,16 +74,10 @@ class _Trial:
 
     predicate: Predicate
     dormant: bool
-    fitter: Fitter
-    words: tuple[Predicate, ...]
-    score: float
+    fit: Fit
+    score: float | None
     remains: bool
     undecided: bool
-
-    @cached_property
-    def fit(self) -> Fit:
-        """What would be learned of all skills; only looked at if the candidate is good for one."""
-        return self.fitter.fit(self.words)
 
     @property
     def resolved(self) -> bool:
@@ -160,7 +154,7 @@ class Inventor:
 
     def _admit_new_data(self) -> None:
         """What was given up or rejected on fewer data may be tried again."""
-        size = len(self._fitter.dataset)
+        size = len(self._fitter.recorded)
         if size != self._size:
             self._size = size
             self._attempts.clear()
@@ -225,7 +219,7 @@ class Inventor:
         promising = list(self._screen(inconsistency, candidates, dormant=dormant))
         self._label(promising)
         trials = [self._trial(inconsistency, p, dormant=dormant) for p in promising]
-        good = [t for t in trials if t.resolved and t.score > self._settings.threshold]
+        good = [t for t in trials if t.resolved and self._scores(t)]
         worth = [t for t in good if t.is_worth_it(fit, inconsistency.kind)]
         best = self._best(worth)
         for trial in trials:
@@ -236,6 +230,9 @@ class Inventor:
             known = self._postponed.get(inconsistency.identity, ())
             self._postponed[inconsistency.identity] = (*known, *(t.predicate for t in good))
         return best is not None
+
+    def _scores(self, trial: _Trial) -> bool:
+        return trial.score is not None and trial.score > self._settings.threshold
 
     def _take_best(
         self, inconsistency: Inconsistency, fit: Fit, postponed: Sequence[Predicate]
@@ -284,18 +281,18 @@ class Inventor:
         self, inconsistency: Inconsistency, candidates: Sequence[Predicate]
     ) -> None:
         """Have the witnesses' pictures labelled for all candidates in one go."""
-        dataset = self._fitter.dataset
+        recorded = self._fitter.recorded
         changes = inconsistency.second is None or inconsistency.kind is InconsistencyKind.EFFECT
         wanted = []
         for number in (inconsistency.first, inconsistency.second):
             if number is not None and candidates:
-                record = dataset.records[number]
-                space = AtomSpace(tuple(candidates), dataset.objects(record.scene))
+                record = recorded.records[number]
+                space = AtomSpace(tuple(candidates), record.scene.objects)
                 moments = [record.transition.before]
                 if changes:
                     moments.append(record.transition.after)
                 wanted.append((space, moments))
-        self._fitter.truth.prefetch(wanted)
+        self._fitter.labeller.truth.prefetch(wanted)
 
     def _separates(self, inconsistency: Inconsistency, predicate: Predicate) -> bool:
         first, second = inconsistency.first, inconsistency.second
@@ -309,40 +306,38 @@ class Inventor:
 
     def _start(self, number: int, predicate: Predicate) -> LiftedState:
         """The start of a transition as the predicate alone shows it."""
-        record = self._fitter.dataset.records[number]
-        space = AtomSpace((predicate,), self._fitter.dataset.objects(record.scene))
-        labels = self._fitter.truth.labels(space, [record.transition.before])
+        record = self._fitter.recorded.records[number]
+        space = AtomSpace((predicate,), record.scene.objects)
+        labels = self._fitter.labeller.truth.labels(space, [record.transition.before])
         return lifted_state(space, labels[0], record.transition.instance)
 
     def _lifted_change(self, number: int, predicate: Predicate) -> LiftedChange:
         """The change around the arguments as the predicate alone shows it."""
-        arguments = self._fitter.dataset.records[number].transition.instance.arguments
+        arguments = self._fitter.recorded.records[number].transition.instance.arguments
         return lift_change(self._changed(number, predicate), arguments).change
 
     def _changed(self, number: int, predicate: Predicate) -> list[Literal]:
         """What is known to have changed, as the predicate alone shows it."""
-        record = self._fitter.dataset.records[number]
-        space = AtomSpace((predicate,), self._fitter.dataset.objects(record.scene))
+        record = self._fitter.recorded.records[number]
+        space = AtomSpace((predicate,), record.scene.objects)
         pictures = [record.transition.before, record.transition.after]
-        labels = self._fitter.truth.labels(space, pictures)
+        labels = self._fitter.labeller.truth.labels(space, pictures)
         change: Labels = (labels[1] - labels[0]) * (labels != UNKNOWN).all(axis=0)
         return changed_literals(space, change)
 
     def _label(self, predicates: Sequence[Predicate]) -> None:
         """Label all pictures for all candidates in one go."""
-        for scene in self._fitter.dataset.scenes if predicates else ():
-            self._fitter.reading.labels(scene, predicates)
+        self._fitter.labeller.label(predicates)
 
     def _trial(
         self, inconsistency: Inconsistency, predicate: Predicate, *, dormant: bool
     ) -> _Trial:
-        words = self._vocabulary.with_candidate(predicate)
-        skill = self._fitter.fit_skill(inconsistency.skill, words)
+        fit = self._fitter.fit(self._vocabulary.with_candidate(predicate))
+        skill = fit.skill(inconsistency.skill)
         return _Trial(
             predicate,
             dormant,
-            self._fitter,
-            words,
+            fit,
             skill.score(inconsistency.kind),
             remains=inconsistency.witness in skill.witnesses,
             undecided=not self._decides_one(inconsistency, skill),
@@ -350,7 +345,7 @@ class Inventor:
 
     def _decides_one(self, inconsistency: Inconsistency, fit: SkillFit) -> bool:
         """Whether a transition of the same cause is no longer wrong and hangs on no unknown."""
-        now = self._fitter.fit_skill(inconsistency.skill, self._vocabulary.active)
+        now = self._fitter.fit(self._vocabulary.active).skill(inconsistency.skill)
         return any(
             i.witness not in fit.witnesses and i.culprit not in fit.undecided
             for i in now.inconsistencies
@@ -373,7 +368,9 @@ class Inventor:
                 reason = "the inconsistency remains"
             elif trial.undecided:
                 reason = "its labels of what is inconsistent are unknown"
-            elif trial.score <= self._settings.threshold:
+            elif trial.score is None:
+                reason = "no transition is decided with it"
+            elif not self._scores(trial):
                 reason = f"score {trial.score:.2f} is not above {self._settings.threshold:.2f}"
             elif trial not in worth:
                 reason = "it takes more operators than it explains transitions"

@@ -9,7 +9,7 @@ from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Predicate
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 
 
 class Adviser(Protocol):
@@ -24,13 +24,13 @@ class ModelProposer:
     """Asks a model for predicates, with the pictures of the two transitions.
 
     Args:
-        dataset: where the transitions stand.
+        recorded: where the transitions stand.
         adviser: who is asked.
         count: how many candidates are wanted at once.
     """
 
-    def __init__(self, dataset: Dataset, adviser: Adviser, count: int) -> None:
-        self._dataset = dataset
+    def __init__(self, recorded: RecordedTransitions, adviser: Adviser, count: int) -> None:
+        self._recorded = recorded
         self._adviser = adviser
         self._count = count
 
@@ -42,11 +42,11 @@ class ModelProposer:
         attempt: int,
     ) -> Sequence[Predicate]:
         """Candidates that may tell the two transitions apart; may be empty."""
-        records = self._dataset.records
+        records = self._recorded.records
         second = inconsistency.second
         question = InventionQuestion(
-            domain=self._dataset.domain,
-            skill=self._dataset.domain.skill_by_name[inconsistency.skill],
+            domain=self._recorded.domain,
+            skill=self._recorded.domain.skill_by_name[inconsistency.skill],
             kind=inconsistency.kind,
             first=records[inconsistency.first].transition,
             second=None if second is None else records[second].transition,
@@ -61,7 +61,7 @@ class ModelProposer:
 
     def _types(self, inconsistency: Inconsistency) -> tuple[str, ...]:
         """The skill's types; for an unexplained change also those of its objects (D1)."""
-        domain = self._dataset.domain
+        domain = self._recorded.domain
         skill = domain.skill_by_name[inconsistency.skill]
         types = dict.fromkeys(p.type for p in skill.parameters)
         if inconsistency.kind == InconsistencyKind.UNEXPLAINED:

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillwrapper.grounding import UNKNOWN
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.vocabulary import Vocabulary
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.symbols import Predicate
 
 
@@ -60,7 +61,7 @@ def _cost_without(
 ) -> int:
     """What it takes without a predicate; if that is not below the limit, any such number."""
     cost = 0
-    for fit in fitter.fit_each([p for p in predicates if p != left_out]):
+    for fit in fitter.fit([p for p in predicates if p != left_out]).each():
         cost += fit.cost
         if cost >= limit:
             break
@@ -89,9 +90,8 @@ def _relation(fitter: Fitter, first: Predicate, second: Predicate) -> str:
         return ""
     compared = 0
     equal = opposite = True
-    for scene in fitter.dataset.scenes:
-        a = fitter.reading.labels(scene, [first])
-        b = fitter.reading.labels(scene, [second])
+    for scene in fitter.recorded.scenes:
+        a, b = (fitter.labeller.values(scene, [p]) for p in (first, second))
         known = (a != UNKNOWN) & (b != UNKNOWN)
         compared += int(known.sum())
         equal &= bool(np.array_equal(a[known], b[known]))
@@ -113,8 +113,8 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
         use = _usage(fit)
         predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
         tried.add(predicate)
-        without = fitter.fit_each([p for p in vocabulary.active if p != predicate])
-        if all(one.witnesses <= fit.skills[one.skill].witnesses for one in without):
+        without = fitter.fit([p for p in vocabulary.active if p != predicate])
+        if all(one.witnesses <= fit.skill(one.skill).witnesses for one in without.each()):
             vocabulary.set_dormant(predicate)
             pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
 

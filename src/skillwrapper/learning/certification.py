@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from skillwrapper.grounding import FALSE
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.lifted_states import LiftedState, is_lifted_state_known, lifted_state
+from skillwrapper.learning.no_ops import NoOps, find_no_ops, is_no_op
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.transitions.lifting import LiftedChange
 
@@ -43,7 +44,7 @@ class Certificate:
         transitions: number of transitions in the data.
         decided: transitions whose labels decide the statements.
         undecided: transitions that hang on an unknown label (D10).
-        no_ops: successes that changed nothing visible (D7), exempt from comparing changes.
+        no_ops: successes that changed nothing (D7), exempt from comparing changes.
         violations: every violation.
     """
 
@@ -71,29 +72,32 @@ def certify(fit: Fit) -> Certificate:
     violations: list[Violation] = []
     total = undecided = no_ops = 0
     for name, skill_fit in fit.skills.items():
-        violations += _check_lemma(name, skill_fit.predictions)
+        still = find_no_ops(p.table for p in skill_fit.predictions)
+        no_ops += sum(int(rows.sum()) for rows in still.values())
+        violations += _check_lemma(name, skill_fit.predictions, still)
         for prediction in skill_fit.predictions:
-            violations += _check_theorem(name, prediction)
+            violations += _check_theorem(name, prediction, still)
             total += len(prediction.table)
             undecided += int(prediction.undecided.sum())
-            no_ops += int((prediction.table.success & prediction.table.unchanged).sum())
     return Certificate(total, total - undecided, undecided, no_ops, tuple(violations))
 
 
-def _check_lemma(skill: str, predictions: Sequence[TablePrediction]) -> Iterator[Violation]:
+def _check_lemma(
+    skill: str, predictions: Sequence[TablePrediction], no_ops: NoOps
+) -> Iterator[Violation]:
     """No success and failure share a lifted start, or a lifted change."""
     starts: dict[LiftedState, int] = {}
     changes: dict[LiftedChange, int] = {}
     for prediction in predictions:
         for number, start in _lifted_starts(prediction, success=True):
             starts.setdefault(start, number)
-        for number, change in _lifted_changes(prediction, success=True):
+        for number, change in _lifted_changes(prediction, no_ops, success=True):
             changes.setdefault(change, number)
     for prediction in predictions:
         for number, start in _lifted_starts(prediction, success=False):
             if start in starts:
                 yield Violation("lemma1", skill, number, starts[start], "same lifted start")
-        for number, change in _lifted_changes(prediction, success=False):
+        for number, change in _lifted_changes(prediction, no_ops, success=False):
             if change in changes:
                 yield Violation("lemma1", skill, number, changes[change], "same lifted change")
 
@@ -116,19 +120,19 @@ def _lifted_starts(
 
 
 def _lifted_changes(
-    prediction: TablePrediction, *, success: bool
+    prediction: TablePrediction, no_ops: NoOps, *, success: bool
 ) -> Iterator[tuple[int, LiftedChange]]:
     table = prediction.table
     for group in table.successes if success else table.failures:
         for row in group.rows:
-            if not (success and table.unchanged[row]):
+            if not no_ops[table][row]:
                 yield int(table.ids[row]), group.lifting.change
 
 
-def _check_theorem(skill: str, prediction: TablePrediction) -> Iterator[Violation]:
+def _check_theorem(skill: str, prediction: TablePrediction, no_ops: NoOps) -> Iterator[Violation]:
     """Each success has an applicable operator with its change; no failure has either."""
     table = prediction.table
-    similar = _similar(prediction)
+    similar = _similar(prediction, no_ops)
     for row in np.flatnonzero(~prediction.undecided):
         number = int(table.ids[row])
         if table.success[row] and not prediction.accounted[row]:
@@ -141,7 +145,7 @@ def _check_theorem(skill: str, prediction: TablePrediction) -> Iterator[Violatio
             yield Violation("theorem1", skill, number, None, reason)
 
 
-def _similar(prediction: TablePrediction) -> NDArray[np.bool_]:
+def _similar(prediction: TablePrediction, no_ops: NoOps) -> NDArray[np.bool_]:
     """Whether some operator, applicable or not, would make the change of a transition (n,).
 
     Not counted are operators learned from no-ops (D7), and conditional effects that come to
@@ -149,7 +153,7 @@ def _similar(prediction: TablePrediction) -> NDArray[np.bool_]:
     """
     similar = np.zeros(len(prediction.table), dtype=bool)
     for learned, found in zip(prediction.operators, prediction.applications, strict=True):
-        if not learned.cluster.is_no_op:
+        if not is_no_op(learned.cluster, no_ops):
             rows = found.similar
             if learned.operator.conditional_effects:
                 rows = rows[prediction.table.change[rows].any(axis=1)]

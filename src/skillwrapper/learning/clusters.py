@@ -32,11 +32,6 @@ class Cluster:
         """Numbers of the transitions, in order of time."""
         return sorted(int(i) for g in self.groups for i in g.table.ids[g.rows])
 
-    @property
-    def is_no_op(self) -> bool:
-        """Whether none of the transitions changed anything visible (D7)."""
-        return all(bool(g.table.unchanged[g.rows].all()) for g in self.groups)
-
 
 @dataclass(frozen=True, eq=False)
 class Bundle:

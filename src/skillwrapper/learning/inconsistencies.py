@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from skillwrapper.grounding import TRUE, UNKNOWN
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
+from skillwrapper.learning.no_ops import find_no_ops
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.symbols import Atom
@@ -193,13 +194,14 @@ def _changes_of_successes(
     """The lifted changes that successes made, with the numbers of the transitions.
 
     Not those of the clusters: from these, conditional effects are left out (D5). A success that
-    changed nothing visible does not count (D7).
+    changed nothing does not count (D7).
     """
     found: dict[LiftedChange, list[int]] = {}
+    no_ops = find_no_ops(p.table for p in predictions)
     for prediction in predictions:
         table = prediction.table
         for group in prediction.table.successes:
-            visible = table.ids[group.rows[~table.unchanged[group.rows]]]
+            visible = table.ids[group.rows[~no_ops[table][group.rows]]]
             if len(visible):
                 found.setdefault(group.lifting.change, []).extend(map(int, visible))
     return found

@@ -41,8 +41,18 @@ class LearningSettings(BaseModel):
     prune: bool = Field(
         default=True, description="whether superfluous predicates are set dormant (D9)"
     )
+    learner: str = Field(
+        default="faithful", description="who learns operators from labelled transitions"
+    )
     absences: bool = Field(
         default=True, description="whether preconditions may be universal absences (D2)"
+    )
+    least_confidence: float = Field(
+        default=0.9,
+        ge=0.5,
+        le=1.0,
+        description="labels with less confidence count as unknown (D10, D24)",
+        json_schema_extra={"unit": "probability"},
     )
     invention: Literal["pairs", "batch"] = Field(
         default="pairs",

@@ -19,7 +19,7 @@ from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.describe import describe_model
 from skillwrapper.symbols.files import model_to_json, predicates_to_yaml
 from skillwrapper.symbols.pddl import print_domain
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 
 
 def write_iteration(
@@ -39,13 +39,15 @@ def write_iteration(
     write_json(target / "unresolved.json", list(unresolved))
 
 
-def write_truth_table(path: Path, fit: Fit, dataset: Dataset, truth: TruthTable) -> None:
+def write_truth_table(
+    path: Path, fit: Fit, recorded: RecordedTransitions, truth: TruthTable
+) -> None:
     """Labels of all observations as CSV: 1 true, 0 false, ? unknown."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    for scene in dataset.scenes:
-        space = AtomSpace(fit.predicates, dataset.objects(scene))
-        observations = dataset.observations(scene)
+    for scene in recorded.scenes:
+        space = AtomSpace(fit.predicates, scene.objects)
+        observations = recorded.observations(scene)
         writer.writerow(["observation", *map(str, space.atoms)])
         labels = truth.labels(space, observations)
         for observation, row in zip(observations, labels, strict=True):
@@ -60,10 +62,12 @@ def write_learned_model(folder: RunFolder, model: AbstractModel) -> None:
     write_atomically(folder.model / "domain.pddl", print_domain(model))
 
 
-def describe_inconsistency(inconsistency: Inconsistency, dataset: Dataset) -> dict[str, Any]:
+def describe_inconsistency(
+    inconsistency: Inconsistency, recorded: RecordedTransitions
+) -> dict[str, Any]:
     """An inconsistency with its transitions and pictures, as plain data."""
     witnesses = [
-        _witness(number, dataset)
+        _witness(number, recorded)
         for number in (inconsistency.first, inconsistency.second)
         if number is not None
     ]
@@ -75,8 +79,8 @@ def describe_inconsistency(inconsistency: Inconsistency, dataset: Dataset) -> di
     }
 
 
-def _witness(number: int, dataset: Dataset) -> dict[str, Any]:
-    transition = dataset.records[number].transition
+def _witness(number: int, recorded: RecordedTransitions) -> dict[str, Any]:
+    transition = recorded.records[number].transition
     return {
         "transition": number,
         "instance": str(transition.instance),

@@ -18,15 +18,18 @@ from skillwrapper.files.writing import append_line, write_json
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.invention.batch import BatchInventor
 from skillwrapper.invention.convergence import Convergence
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
 from skillwrapper.invention.proposer import ModelProposer
 from skillwrapper.invention.pruning import Pruned, prune
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.certification import Certificate, certify
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.learning.learner import make_learner
 from skillwrapper.learning.untested import find_untested
+from skillwrapper.perception.labelling import Labeller
 from skillwrapper.perception.reading_calls import ReadingCalls
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.artifacts import (
@@ -40,7 +43,7 @@ from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.recorder import EpisodeRecorder
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Predicate
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
@@ -119,12 +122,12 @@ class LearningRun:
         self._watcher = watcher
         self._recorder = EpisodeRecorder(folder, environment)
         self._scenes = tuple(domain.scene(name).name for name in config.scenes or domain.scenes)
-        self.dataset = Dataset(domain)
+        self.recorded = RecordedTransitions(domain)
         self.truth = TruthTable(domain, assistant)
         asking = config.model.asking
         self._readings = ReadingCalls(self.truth, asking.batch_size, asking.votes)
         self._explorer = Explorer(domain, assistant, config.exploration, config.seed)
-        self._fitter = Fitter(domain, self.dataset, self.truth, absences=config.learning.absences)
+        self._fitter = Fitter(Labeller(self.recorded, self.truth), make_learner(config.learning))
         self._vocabulary = Vocabulary(domain.types)
         self._inventor = self._make_inventor(assistant)
         self._convergence = Convergence(self._fitter)
@@ -160,7 +163,7 @@ class LearningRun:
             return BatchInventor(
                 self._fitter, self._vocabulary, assistant, settings.batch_size, self._decided
             )
-        proposer = ModelProposer(self.dataset, assistant, settings.candidates)
+        proposer = ModelProposer(self.recorded, assistant, settings.candidates)
         return Inventor(self._fitter, self._vocabulary, proposer, settings, self._decided)
 
     def _iterate(self) -> LearningResult:
@@ -168,7 +171,7 @@ class LearningRun:
         self._decisions = []
         self._tell(EventKind.ITERATION_STARTED, total=self._config.iterations)
         episode = self._explore()
-        self.dataset.add(episode)
+        self.recorded.add(episode)
         self._explorer.record(episode)
         self._readings.count_arrival(self._everything(self._vocabulary.active))
         self._converged = self._config.until_converged and self._convergence.is_reached()
@@ -179,7 +182,6 @@ class LearningRun:
         result = self._result()
         self._convergence.remember(result.fit)
         self._write(result)
-        self._fitter.forget()
         self._tell(EventKind.ITERATION_FINISHED, **result.to_json())
         return result
 
@@ -202,7 +204,7 @@ class LearningRun:
             fit,
             certify(fit),
             distinct_causes(fit.inconsistencies),
-            len(self.dataset),
+            len(self.recorded),
             self._iteration,
             self._converged,
             self._readings.needed,
@@ -212,10 +214,10 @@ class LearningRun:
     def _write(self, result: LearningResult) -> None:
         if self._iteration <= self._finished:
             return
-        unresolved = [describe_inconsistency(i, self.dataset) for i in result.unresolved]
+        unresolved = [describe_inconsistency(i, self.recorded) for i in result.unresolved]
         target = self._folder.iteration(self._iteration)
         write_iteration(self._folder, self._iteration, result.fit, result.certificate, unresolved)
-        write_truth_table(target / "truth_table.csv", result.fit, self.dataset, self.truth)
+        write_truth_table(target / "truth_table.csv", result.fit, self.recorded, self.truth)
         write_json(target / "decisions.json", self._decisions)
         agreement = {p.name: self.truth.agreement(p) for p in result.fit.predicates}
         summary = {
@@ -238,7 +240,7 @@ class LearningRun:
             "reason": decision.reason,
         }
         if decision.inconsistency is not None:
-            entry["inconsistency"] = describe_inconsistency(decision.inconsistency, self.dataset)
+            entry["inconsistency"] = describe_inconsistency(decision.inconsistency, self.recorded)
         self._decisions.append(entry)
         self._tell(EventKind.PREDICATE_DECIDED, **entry)
 
@@ -254,9 +256,9 @@ class LearningRun:
         self, predicates: Sequence[Predicate]
     ) -> Iterator[tuple[AtomSpace, Sequence[Observation]]]:
         """All groundings and all pictures of every scene."""
-        for scene in self.dataset.scenes:
-            space = AtomSpace(tuple(predicates), self.dataset.objects(scene))
-            yield space, self.dataset.observations(scene)
+        for scene in self.recorded.scenes:
+            space = AtomSpace(tuple(predicates), scene.objects)
+            yield space, self.recorded.observations(scene)
 
     def _set_dormant(self, pruned: Pruned) -> None:
         entry = {"predicate": pruned.predicate.signature, "reason": pruned.reason}

@@ -103,8 +103,10 @@ class EpisodeRecorder:
             "message": outcome.message,
             "after": self._folder.save_observation(outcome.observation),
         }
+        if outcome.changed is not None:
+            entry["changed"] = outcome.changed
         append_line(self._folder.episode(number), entry)
-        return Transition(before, instance, outcome.success, outcome.observation)
+        return Transition(before, instance, outcome.success, outcome.observation, outcome.changed)
 
     def _repeat(
         self, start: Observation, seed: int, scene: str | None, recorded: list[Transition]
@@ -150,6 +152,7 @@ def read_transitions(
     for entry in entries:
         instance = SkillInstance(entry["skill"], tuple(entry["arguments"]))
         after = folder.load_observation(entry["after"])
-        transitions.append(Transition(before, instance, bool(entry["success"]), after))
+        success, changed = bool(entry["success"]), entry.get("changed")
+        transitions.append(Transition(before, instance, success, after, changed))
         before = after
     return transitions

@@ -31,7 +31,8 @@ class SkillTable:
         before: labels before (n, atoms).
         after: labels after (n, atoms).
         ids: for every transition (n,) its number in the whole data set, in order of time.
-        unchanged: for every transition (n,) whether its two observations are identical.
+        unchanged: for every transition (n,) whether the state is known not to have changed,
+            whatever its labels say.
         lifter: lifts changes; shared by tables, so that it remembers more.
     """
 

@@ -17,11 +17,13 @@ class Outcome:
         success: whether the skill reached its goal, as the robot itself reports.
         observation: what is seen afterwards.
         message: why it failed, for people; never used for learning.
+        changed: whether anything changed, where the robot knows; None where it does not.
     """
 
     success: bool
     observation: Observation
     message: str = ""
+    changed: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -33,12 +35,14 @@ class Transition:
         instance: the skill instance that was run.
         success: whether it succeeded.
         after: observation after the execution.
+        changed: whether anything changed, where the robot knows; None where it does not.
     """
 
     before: Observation
     instance: SkillInstance
     success: bool
     after: Observation
+    changed: bool | None = None
 
 
 @dataclass(frozen=True)

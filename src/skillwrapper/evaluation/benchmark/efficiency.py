@@ -15,8 +15,9 @@ from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Prepared
 from skillwrapper.exploration.coverage import PairCounts
 from skillwrapper.learning.operators import cluster_operators
+from skillwrapper.perception.labelling import Labeller, TruthSource
 from skillwrapper.symbols import Operator, Predicate
-from skillwrapper.transitions.dataset import Dataset, Reading, TruthSource
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world.domain import Domain
 
 
@@ -69,16 +70,16 @@ def share_changing(
     Operators are learned as they are before they are mended (DESIGN.md D5): mending looks at all
     predictions, which takes too long after every single execution.
     """
-    dataset, changes = Dataset(domain), 0
-    reading = Reading(dataset, recorded)
+    done, changes = RecordedTransitions(domain), 0
+    labeller = Labeller(done, recorded)
     known: dict[str, tuple[Operator, ...]] = {}
     for episode in prepared.episodes:
         for transition in episode.transitions:
-            dataset.add(replace(episode, transitions=(transition,)))
+            done.add(replace(episode, transitions=(transition,)))
             skill = domain.skill_by_name[transition.instance.skill]
-            data = reading.skill_data(skill.name, predicates)
+            data = labeller.label(predicates).of_skill(skill.name)
             found = cluster_operators(domain, skill, data, predicates, absences=prepared.absences)
             learned = tuple(o.operator for o in found)
             changes += learned != known.get(skill.name, ())
             known[skill.name] = learned
-    return changes / len(dataset) if len(dataset) else 0.0
+    return changes / len(done) if len(done) else 0.0

@@ -21,7 +21,7 @@ _CODES = {True: TRUE, False: FALSE, None: UNKNOWN}
 
 
 class PlainSight:
-    """Reads pictures without error (``learning.dataset.TruthSource``)."""
+    """Reads pictures without error (``perception.labelling.TruthSource``)."""
 
     def __init__(self) -> None:
         self._eye = Eye()

@@ -14,8 +14,8 @@ from skillwrapper.evaluation.exact.plain_sight import PlainSight
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.symbols import Predicate
-from skillwrapper.transitions.dataset import TruthSource
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.observation import Observation
 

@@ -19,11 +19,11 @@ from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.evaluation.problems.solving import ModelSolver
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.settings import ModelSettings, RunSettings
 from skillwrapper.symbols import AbstractModel
-from skillwrapper.transitions.dataset import TruthSource
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.episode import Episode
 

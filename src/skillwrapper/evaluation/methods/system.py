@@ -17,10 +17,14 @@ from skillwrapper.evaluation.methods.learned import read_episodes
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import StateReader, system_reader
 from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.learning.certification import certify
-from skillwrapper.learning.fitting import Fit, Fitter
+from skillwrapper.learning.faithful import FaithfulLearner
+from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.perception.labelling import Labeller
 from skillwrapper.runs.folder import RunFolder
-from skillwrapper.transitions.dataset import Dataset
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.episode import Episode
 from skillwrapper.world.observation import Observation
@@ -28,7 +32,7 @@ from skillwrapper.world.observation import Observation
 
 @dataclass(frozen=True)
 class RecordedStates:
-    """True labels of recorded pictures (``learning.dataset.TruthSource``).
+    """True labels of recorded pictures (``perception.labelling.TruthSource``).
 
     Attributes:
         reader: knows the true atoms of states.
@@ -79,14 +83,15 @@ class SystemMethod:
         reader = system_reader(bench.environment)
         episodes = read_episodes(RunFolder.open(bench.source / "run"))
         recorded = RecordedStates(reader)
-        dataset = Dataset(bench.environment.domain)
-        fitter = Fitter(dataset.domain, dataset, recorded, absences=self.absences)
+        done = RecordedTransitions(bench.environment.domain)
+        learner = FaithfulLearner(LearningSettings(absences=self.absences))
+        fitter = Fitter(Labeller(done, recorded), learner)
         stages = []
         for episode in episodes:
             recorded.add(bench.environment, episode)
-            dataset.add(episode)
+            done.add(episode)
             fit = fitter.fit(bench.package.system_predicates)
-            stages.append(Stage(len(dataset), fit.model))
+            stages.append(Stage(len(done), fit.model))
         solver = bench.solver(fit.model, reader, reader)
         states = bench.truth.space.states
         yield Prepared(
@@ -96,7 +101,7 @@ class SystemMethod:
             episodes,
             recorded,
             self.absences,
-            _figures(fit, len(dataset)),
+            _figures(fit, len(done)),
         )
 
 

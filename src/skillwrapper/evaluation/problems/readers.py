@@ -9,8 +9,8 @@ from typing import Any, Protocol
 import numpy as np
 
 from skillwrapper.grounding import FALSE, TRUE, AtomSpace, Labels
+from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.symbols import Atom
-from skillwrapper.transitions.dataset import TruthSource
 from skillwrapper.world.environment import EnumerableEnvironment
 
 
