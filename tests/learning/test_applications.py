@@ -5,14 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+import pytest
 from hypothesis import given
-from notebook import Notebook
+from notebook import Notebook, make_domain
+from numpy.typing import NDArray
 from random_worlds import QUICK, notebooks
 from scalar_grounding import ScalarOperator, ground_operator
 
 from skillwrapper.grounding import FALSE, TRUE
+from skillwrapper.grounding.bindings import Bindings
+from skillwrapper.learning.certification import certify
 from skillwrapper.learning.predictions import Application, attempts_of
-from skillwrapper.symbols import Atom, ConditionalEffect, Literal, Operator, Variable
+from skillwrapper.learning.untested import find_untested
+from skillwrapper.symbols import Atom, ConditionalEffect, Literal, Operator, Predicate, Variable
 from skillwrapper.transitions.tables import SkillTable
 
 
@@ -92,3 +98,32 @@ def test_what_operators_say_of_transitions(notebook: Notebook) -> None:
 
 def terms_of_effects(operator: Operator) -> set[str]:
     return {t for a in operator.add_effects | operator.delete_effects for t in a.terms}
+
+
+def test_wrong_labels_do_not_multiply_bindings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One flipped row of labels makes an operator with eight parameters over twelve blocks.
+
+    Its bindings to all of them would be 1.6 million for every transition.
+    """
+    blocks = make_domain({"block": ()}, {f"b{n}": "block" for n in range(12)}, {"Lift": "block"})
+    notebook = Notebook(blocks, Predicate("on", ("block", "block")), Predicate("up", ("block",)))
+    chain = " ".join(f"on(b{n}, b{n + 1})" for n in range(7))
+    notebook.success(chain, "Lift(b0)", "up(b0)")  # all seven relations are gone
+    for n in range(12):
+        other = " ".join(f"on(b{m}, b{(m + n) % 11 + 1})" for m in range(0, n, 2))
+        notebook.success(other, f"Lift(b{n})", f"{other} up(b{n})")
+        notebook.failure(f"{chain} up(b{n})", f"Lift(b{n})")
+    looked_at = 0
+    select = Bindings.select
+
+    def counting(self: Bindings, chosen: NDArray[np.bool_] | slice) -> Bindings:
+        nonlocal looked_at
+        looked_at += len(self)
+        return select(self, chosen)
+
+    monkeypatch.setattr(Bindings, "select", counting)
+    fit = notebook.fit()
+    assert max(len(o.operator.parameters) for o in fit.operators) == 8
+    certify(fit)
+    find_untested(fit)
+    assert looked_at < 100_000

@@ -13,6 +13,9 @@ from skillwrapper.grounding.atom_space import FALSE, TRUE, UNKNOWN, Labels
 from skillwrapper.grounding.indexed_operators import IndexedOperator
 from skillwrapper.world.skills import SkillInstance
 
+UNCHANGED = 2
+"""Stands for no label; no effect and no condition asks for it."""
+
 
 @dataclass(frozen=True, eq=False)
 class Attempts:
@@ -24,12 +27,15 @@ class Attempts:
             all objects that are bound beforehand, which may be more than the arguments.
         rows: the state (attempts,) of every attempt.
         which: the skill instance (attempts,) of every attempt.
+        changes: what each atom became in a state: TRUE, FALSE, UNKNOWN or ``UNCHANGED``. If given,
+            an operator is only bound so that its plain effects are part of it.
     """
 
     states: AbstractStates
     arguments: Columns
     rows: NDArray[np.intp]
     which: NDArray[np.intp]
+    changes: AbstractStates | None = None
 
     @classmethod
     def everywhere(cls, states: AbstractStates, arguments: Columns) -> Attempts:
@@ -54,7 +60,7 @@ class Bindings:
     Attributes:
         operator: the operator.
         attempts: what was attempted.
-        attempt: the attempt (bindings,) of every binding, ascending in a block.
+        attempt: the attempt (bindings,) of every binding.
         objects: the numbers (bindings, parameters) of the objects.
         unmet: how many conditions (bindings,) are surely unmet.
         unsure: whether a condition (bindings,) hangs on an unknown label.
@@ -70,8 +76,8 @@ class Bindings:
     def __len__(self) -> int:
         return len(self.attempt)
 
-    def select(self, chosen: NDArray[np.bool_] | slice) -> Bindings:
-        """Those that a mask (bindings,) or a slice names."""
+    def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp] | slice) -> Bindings:
+        """Those that a mask (bindings,), places or a slice name."""
         return Bindings(
             self.operator,
             self.attempts,

@@ -82,22 +82,20 @@ class IndexedOperator:
         return self.patterns(literal.atom for literal in self.literals)
 
     @cached_property
-    def changed_patterns(self) -> AtomPatterns:
-        """The atoms that are deleted, then those that are added."""
-        return self.patterns((*self._deleted, *self._added))
+    def changes(self) -> tuple[Literal, ...]:
+        """What becomes false, then what becomes true, each sorted."""
+        deleted = [Literal(atom, False) for atom in sorted(self.operator.delete_effects)]
+        return (*deleted, *(Literal(atom) for atom in sorted(self.operator.add_effects)))
 
     @cached_property
-    def _deleted(self) -> list[Atom]:
-        return sorted(self.operator.delete_effects)
-
-    @cached_property
-    def _added(self) -> list[Atom]:
-        return sorted(self.operator.add_effects)
+    def _changed_patterns(self) -> AtomPatterns:
+        return self.patterns(change.atom for change in self.changes)
 
     def changed_columns(self, objects: Columns) -> tuple[Columns, Columns]:
         """Columns that are added and that are deleted (bindings, atoms); -1 for no grounding."""
-        columns = self.space.index.columns(self.changed_patterns, objects)
-        return columns[:, len(self._deleted) :], columns[:, : len(self._deleted)]
+        columns = self.space.index.columns(self._changed_patterns, objects)
+        deleted = len(self.operator.delete_effects)
+        return columns[:, deleted:], columns[:, :deleted]
 
     def possible_changes(self, objects: Columns) -> tuple[Columns, Columns]:
         """Columns (n,) that some binding may add, and that some may delete, also on conditions."""

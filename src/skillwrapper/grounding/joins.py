@@ -8,29 +8,45 @@ that bound the memory whatever the number of parameters, objects and states is.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.grounding.atom_index import AtomPatterns, Columns, taken_objects
+from skillwrapper.grounding.atom_index import Columns, taken_objects
 from skillwrapper.grounding.atom_space import FALSE, UNKNOWN
 from skillwrapper.grounding.bindings import Attempts, Bindings
 from skillwrapper.grounding.indexed_operators import IndexedOperator, absent
-from skillwrapper.symbols import Atom
+from skillwrapper.grounding.join_plans import JoinPlan, JoinStep
 
 BLOCK = 1 << 20
 """At most so many labels are looked up at once."""
 
+_FEW = 256
+"""Parts of fewer bindings are not worth the trouble."""
+
+Wanted = Callable[[Bindings], NDArray[np.bool_]]
+"""Which of some bindings (bindings,), not all of whose parameters are bound yet, to go on with."""
+
 
 def find_bindings(
-    operator: IndexedOperator, attempts: Attempts, *, most_unmet: int = 0
+    operator: IndexedOperator,
+    attempts: Attempts,
+    *,
+    most_unmet: int = 0,
+    wanted: Wanted | None = None,
 ) -> Iterator[Bindings]:
-    """Bindings to distinct objects of the right types, block by block in the order of attempts.
+    """Bindings to distinct objects of the right types, block by block.
 
     Only those that may apply, or of which at most ``most_unmet`` conditions are surely unmet.
+
+    Args:
+        operator: the operator.
+        attempts: skill instances in abstract states; blocks are in their order.
+        most_unmet: so many conditions may be unmet.
+        wanted: asked again and again, so that its answer may follow from what was found; blocks
+            are then in an order that soon brings some binding of every attempt.
     """
     join = _Join(operator, attempts, most_unmet)
     for start in range(0, len(attempts), join.block):
@@ -38,76 +54,48 @@ def find_bindings(
         waiting = [(0, join.bind_arguments(np.arange(start, stop)))]
         while waiting:
             done, found = waiting.pop()
+            if wanted is not None:
+                found = found.select(wanted(found))
             if done == len(join.steps):
                 found = join.check_absences(found)
                 if len(found):
                     yield found
-            else:
-                parts = _split(join.bind_next(found, join.steps[done]), join.block)
-                waiting += [(done + 1, part) for part in reversed(parts)]
-
-
-@dataclass(frozen=True)
-class _Step:
-    """The next parameter to bind, with what can then be looked at.
-
-    Attributes:
-        bound: the positions that are bound before.
-        position: of the parameter; of no meaning for what is bound beforehand.
-        literals: the literals, by number, all of whose parameters are then bound.
-        patterns: of these literals.
-        changed: of the effects all of whose parameters are then bound.
-    """
-
-    bound: list[int]
-    position: int
-    literals: list[int]
-    patterns: AtomPatterns
-    changed: AtomPatterns
+            elif len(found):
+                found, size = join.bind_next(found, join.steps[done]), join.block
+                if wanted is not None and done + 1 < len(join.steps):
+                    order, size = _by_turns(found.attempt, size)
+                    found = found.select(order)
+                waiting += [(done + 1, part) for part in reversed(_parts(found, size))]
 
 
 class _Join:
-    """Joins the attempts at an operator with the objects that its parameters may stand for."""
+    """Joins attempts at an operator with the objects that its parameters may stand for."""
 
     def __init__(self, operator: IndexedOperator, attempts: Attempts, most_unmet: int) -> None:
         self._operator, self._attempts, self._most = operator, attempts, most_unmet
         self._index = operator.space.index
         self._given = attempts.arguments.shape[1]
-        self._size = len(operator.operator.parameters)
-        given, order = list(range(self._given)), _order(operator, self._given)
-        self._first = self._step([], given, first=True)
-        self.steps = tuple(
-            self._step([*given, *order[:number]], [position])
-            for number, position in enumerate(order)
-        )
-        literals = max(len(step.literals) for step in (self._first, *self.steps))
+        plan = JoinPlan.of(operator, self._given, by_change=attempts.changes is not None)
+        self._first, self.steps = plan.first, plan.steps
         objects, atoms = len(operator.space.objects), len(operator.space.atoms)
-        self.block = max(1, BLOCK // max(1, objects * (1 + literals), atoms))
+        self.block = max(1, BLOCK // max(1, objects * (1 + plan.widest), atoms))
 
     def bind_arguments(self, attempt: NDArray[np.intp]) -> Bindings:
-        """Bindings of the arguments alone, one an attempt."""
-        possible, columns, unfit = self._arguments
-        which = self._attempts.which[attempt]
-        attempt, which = attempt[possible[which]], which[possible[which]]
-        objects = np.zeros((len(attempt), self._size), dtype=np.intp)
-        objects[:, : self._given] = self._attempts.arguments[which]
-        sure = np.zeros(len(attempt), dtype=bool)
-        found = Bindings(self._operator, self._attempts, attempt, objects, unfit[which], sure)
-        return self._check_literals(found, self._first, columns[which])
-
-    @cached_property
-    def _arguments(self) -> tuple[NDArray[np.bool_], Columns, NDArray[np.intp]]:
-        """Of every skill instance: whether it fits, its literals' columns, doubtful types unmet."""
-        objects = np.zeros((len(self._attempts.arguments), self._size), dtype=np.intp)
-        objects[:, : self._given] = arguments = self._attempts.arguments
-        places = np.arange(self._given)
+        """Bindings of what is bound beforehand, one an attempt."""
+        attempts, places = self._attempts, np.arange(self._given)
+        objects = np.zeros((len(attempts.arguments), len(self._operator.fits)), dtype=np.intp)
+        objects[:, : self._given] = arguments = attempts.arguments
         possible = self._operator.allowed[places, arguments].all(axis=1)
         possible &= (np.diff(np.sort(arguments, axis=1), axis=1) != 0).all(axis=1)
-        possible &= (self._index.columns(self._first.changed, objects) >= 0).all(axis=1)
         unfit = (~self._operator.fits[places, arguments]).sum(axis=1)
-        return possible, self._index.columns(self._first.patterns, objects), unfit
+        changed = self._index.columns(self._first.changed, objects)
+        columns = self._index.columns(self._first.patterns, objects)
+        attempt = attempt[possible[attempts.which[attempt]]]
+        which, unsure = attempts.which[attempt], np.zeros(len(attempt), dtype=bool)
+        found = Bindings(self._operator, attempts, attempt, objects[which], unfit[which], unsure)
+        return self._check(found, self._first, changed[which], columns[which])
 
-    def bind_next(self, found: Bindings, step: _Step) -> Bindings:
+    def bind_next(self, found: Bindings, step: JoinStep) -> Bindings:
         """Bind one more parameter to every object that it may stand for."""
         position, operator = step.position, self._operator
         free = ~taken_objects(found.objects[:, step.bound], len(operator.space.objects))
@@ -117,14 +105,8 @@ class _Join:
         unmet = found.unmet[binding] + ~operator.fits[position, other]
         unsure = found.unsure[binding]
         wider = Bindings(operator, self._attempts, found.attempt[binding], objects, unmet, unsure)
-        wider = wider.select(np.all(self._index.columns(step.changed, objects) >= 0, axis=1))
-        return self._check_literals(wider, step, self._index.columns(step.patterns, wider.objects))
-
-    def _check_literals(self, found: Bindings, step: _Step, columns: Columns) -> Bindings:
-        values = self._attempts.states.at(found.rows, columns)
-        unknown = values == UNKNOWN
-        unmet = (~unknown & (values != self._operator.wanted[step.literals])).sum(axis=1)
-        return self._kept(found, unmet, unknown.any(axis=1))
+        changed = self._index.columns(step.changed, objects)
+        return self._check(wider, step, changed, self._index.columns(step.patterns, objects))
 
     def check_absences(self, found: Bindings) -> Bindings:
         """Those of which no absence is unmet either; an absence speaks of all parameters."""
@@ -134,6 +116,22 @@ class _Join:
             found = self._kept(found, (verdict == FALSE).astype(np.intp), verdict == UNKNOWN)
         return found
 
+    def _check(
+        self, found: Bindings, step: JoinStep, changed: Columns, columns: Columns
+    ) -> Bindings:
+        """Those whose changed atoms are groundings, and changed so, and whose literals may hold."""
+        possible = changed >= 0
+        if self._attempts.changes is not None:
+            became = self._attempts.changes.at(found.rows, changed)
+            possible &= (became == step.becomes) | (became == UNKNOWN)
+        if not possible.all():
+            kept = np.all(possible, axis=1)
+            found, columns = found.select(kept), columns[kept]
+        values = self._attempts.states.at(found.rows, columns)
+        unknown = values == UNKNOWN
+        unmet = (~unknown & (values != step.wanted)).sum(axis=1)
+        return self._kept(found, unmet, unknown.any(axis=1))
+
     def _kept(
         self, found: Bindings, unmet: NDArray[np.intp], unsure: NDArray[np.bool_]
     ) -> Bindings:
@@ -141,47 +139,21 @@ class _Join:
         noted = replace(found, unmet=total, unsure=found.unsure | unsure)
         return noted.select(total <= self._most)
 
-    def _step(self, bound: list[int], new: list[int], *, first: bool = False) -> _Step:
-        """What can be looked at when some parameters are newly bound; nullary atoms at first."""
-        operator = self._operator.operator
-        names = {operator.parameters[n].name for n in (*bound, *new)}
-        fresh = {operator.parameters[n].name for n in new}
 
-        def is_due(atom: Atom) -> bool:
-            return names.issuperset(atom.terms) and (first or bool(fresh & {*atom.terms}))
-
-        literals = [n for n, x in enumerate(self._operator.literals) if is_due(x.atom)]
-        effects = sorted(operator.add_effects | operator.delete_effects)
-        return _Step(
-            bound,
-            new[0] if new else 0,
-            literals,
-            self._operator.patterns(self._operator.literals[n].atom for n in literals),
-            self._operator.patterns(atom for atom in effects if is_due(atom)),
-        )
-
-
-def _order(operator: IndexedOperator, given: int) -> list[int]:
-    """The order in which the parameters behind the given ones are bound."""
-    names = [v.name for v in operator.operator.parameters]
-    bound, left = set(names[:given]), list(range(given, len(names)))
-    positive = [set(x.atom.terms) for x in operator.literals if x.positive]
-    order: list[int] = []
-
-    def ties(position: int) -> tuple[int, int, int]:
-        name = names[position]
-        own = [terms for terms in positive if name in terms and terms <= {*bound, name}]
-        return -sum(len(t) > 1 for t in own), -len(own), int(operator.allowed[position].sum())
-
-    while left:
-        position = min(left, key=ties)
-        left.remove(position)
-        order.append(position)
-        bound.add(names[position])
-    return order
-
-
-def _split(found: Bindings, size: int) -> list[Bindings]:
+def _parts(found: Bindings, size: int) -> list[Bindings]:
     if len(found) <= size:
         return [found]
     return [found.select(slice(start, start + size)) for start in range(0, len(found), size)]
+
+
+def _by_turns(attempt: NDArray[np.intp], most: int) -> tuple[NDArray[np.intp], int]:
+    """An order in which the first of every attempt comes before the second of any.
+
+    Returns:
+        The order, and the size of parts of which the first one holds all the first ones.
+    """
+    order = np.argsort(attempt, kind="stable")
+    own = attempt[order]
+    turn = np.arange(len(own)) - np.searchsorted(own, own)
+    first = int(np.count_nonzero(turn == 0))
+    return order[np.argsort(turn, kind="stable")], min(most, max(first, _FEW))

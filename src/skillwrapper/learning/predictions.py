@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
-from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.grounding.bindings import UNCHANGED, Attempts, Bindings
 from skillwrapper.grounding.indexed_operators import IndexedOperator
 from skillwrapper.grounding.joins import find_bindings
 from skillwrapper.learning.operators import LearnedOperator
-from skillwrapper.symbols import Literal, Operator
+from skillwrapper.symbols import Operator
 from skillwrapper.transitions.tables import SkillData, SkillTable
 
 
@@ -25,10 +25,6 @@ def attempts_of(table: SkillTable, rows: NDArray[np.intp] | None = None) -> Atte
     return Attempts(AbstractStates(table.before), table.arguments, rows, table.which[rows])
 
 
-NEITHER = 2
-"""In place of a label where an atom did not change; no condition asks for it."""
-
-
 @dataclass(frozen=True, eq=False)
 class Application:
     """An operator applied to the transitions of a table, in every binding that may apply.
@@ -36,77 +32,86 @@ class Application:
     Attributes:
         operator: the operator.
         table: the transitions.
+        attempts: the same, as attempts.
         possible: rows, sorted, for which some binding may apply.
         sure: rows, sorted, for which some binding surely applies.
-        accounted: rows, sorted, for which one of these makes the whole known change.
         mispredicted: rows, sorted, of successes for which one of these predicts another change;
             unknown and unexplained atoms do not count.
     """
 
     operator: Operator
     table: SkillTable
+    attempts: Attempts
     possible: NDArray[np.intp]
     sure: NDArray[np.intp]
-    accounted: NDArray[np.intp]
     mispredicted: NDArray[np.intp]
 
     @classmethod
     def of(cls, operator: Operator, table: SkillTable, attempts: Attempts) -> Application:
         """Apply an operator to a table, whose transitions are the attempts."""
-        marked = {name: np.zeros(len(table), dtype=bool) for name in _MARKS}
+        possible, sure, mispredicted = (np.zeros(len(table), dtype=bool) for _ in range(3))
         counts = table.success & ~table.hanging
         excused = table.undetermined | table.unexplained
-        for bindings in find_bindings(IndexedOperator(operator, table.space), attempts):
-            marked["possible"][bindings.rows] = True
-            sure = bindings.sure
-            rows, effects = sure.rows, sure.effects()
-            marked["sure"][rows] = True
-            marked["accounted"][rows[_is_change(effects, table, rows)]] = True
-            predicted = np.where(effects == 0, table.before[rows], effects > 0)
-            wrong = ((predicted != table.after[rows]) & ~excused[rows]).any(axis=1)
-            marked["mispredicted"][rows[wrong & counts[rows]]] = True
-        return cls(operator, table, **{name: np.flatnonzero(m) for name, m in marked.items()})
+
+        def wanted(bindings: Bindings) -> NDArray[np.bool_]:
+            """Whether a binding may tell anything new of its row."""
+            rows = bindings.rows
+            surely = ~bindings.unsure & (~sure | (counts & ~mispredicted))[rows]
+            tells: NDArray[np.bool_] = ~possible[rows] | surely
+            return tells
+
+        indexed = IndexedOperator(operator, table.space)
+        for bindings in find_bindings(indexed, attempts, wanted=wanted):
+            possible[bindings.rows] = True
+            sure[bindings.sure.rows] = True
+            found = bindings.sure.select(counts[bindings.sure.rows])
+            wrong = (found.successors() != table.after[found.rows]) & ~excused[found.rows]
+            mispredicted[found.rows[wrong.any(axis=1)]] = True
+        return cls(operator, table, attempts, *map(np.flatnonzero, (possible, sure, mispredicted)))
+
+    @cached_property
+    def accounted(self) -> NDArray[np.intp]:
+        """Rows, sorted, for which a binding surely applies and makes the whole known change."""
+        return self._making_the_change(self.operator, surely=True)
 
     @cached_property
     def similar(self) -> NDArray[np.intp]:
         """Rows, sorted, whose whole known change some binding would make, applicable or not."""
-        table, operator = self.table, _effects_alone(self.operator)
-        indexed, before = IndexedOperator(operator, table.space), AbstractStates(table.before)
-        found = np.zeros(len(table), dtype=bool)
-        attempts = replace(attempts_of(table), states=AbstractStates(_changes(table)))
-        for bindings in find_bindings(indexed, attempts):
-            effects = indexed.effects(before, bindings.rows, bindings.objects)
-            found[bindings.rows[_is_change(effects, table, bindings.rows)]] = True
-        return np.flatnonzero(found)
+        return self._making_the_change(_unconditional(self.operator), surely=False)
+
+    def _making_the_change(self, operator: Operator, *, surely: bool) -> NDArray[np.intp]:
+        table, attempts = self.table, replace(self.attempts, changes=_changes(self.table))
+        making = np.zeros(len(table), dtype=bool)
+
+        def wanted(bindings: Bindings) -> NDArray[np.bool_]:
+            return ~making[bindings.rows] & ~(bindings.unsure & surely)
+
+        indexed = IndexedOperator(operator, table.space)
+        for bindings in find_bindings(indexed, attempts, wanted=wanted):
+            found = bindings.sure if surely else bindings
+            rows = found.rows
+            wrong = (found.effects() != table.change[rows]) & ~table.undetermined[rows]
+            making[rows[~wrong.any(axis=1)]] = True
+        return np.flatnonzero(making)
 
 
-_MARKS = ("possible", "sure", "accounted", "mispredicted")
+def _changes(table: SkillTable) -> AbstractStates:
+    became = np.select([table.change > 0, table.change < 0], [TRUE, FALSE], UNCHANGED)
+    return AbstractStates(np.where(table.undetermined, UNKNOWN, became).astype(np.int8))
 
 
-def _is_change(effects: Labels, table: SkillTable, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether effects (bindings, atoms) are the whole known change of rows (bindings,)."""
-    wrong = (effects != table.change[rows]) & ~table.undetermined[rows]
-    same: NDArray[np.bool_] = ~wrong.any(axis=1)
-    return same
-
-
-def _changes(table: SkillTable) -> Labels:
-    """What each atom became (n, atoms): TRUE, FALSE, UNKNOWN or NEITHER."""
-    became = np.select([table.change > 0, table.change < 0], [TRUE, FALSE], NEITHER)
-    return np.where(table.undetermined, UNKNOWN, became).astype(np.int8)
-
-
-def _effects_alone(operator: Operator) -> Operator:
-    """An operator that asks of changes what it makes, and has no parameters but for that."""
-    added, deleted = operator.add_effects, operator.delete_effects
+def _unconditional(operator: Operator) -> Operator:
+    """An operator that makes the same changes whenever, without what only conditions speak of."""
     ranging = [x for e in operator.conditional_effects for x in (e.effect, *e.condition)]
-    atoms = [*added, *deleted, *(literal.atom for literal in ranging)]
+    atoms = {*operator.add_effects, *operator.delete_effects, *(x.atom for x in ranging)}
     used = {term for atom in atoms for term in atom.terms}
-    context = (v for v in operator.context if v.name in used)
     return replace(
         operator,
-        parameters=(*operator.parameters[: operator.arity], *context),
-        preconditions=frozenset({*map(Literal, added), *(Literal(a, False) for a in deleted)}),
+        parameters=(
+            *operator.parameters[: operator.arity],
+            *(v for v in operator.context if v.name in used),
+        ),
+        preconditions=frozenset(),
         absences=frozenset(),
     )
 

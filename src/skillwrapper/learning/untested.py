@@ -11,9 +11,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillwrapper.grounding import FALSE
-from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.grounding.bindings import Attempts, Bindings
 from skillwrapper.grounding.indexed_operators import IndexedOperator
 from skillwrapper.grounding.joins import find_bindings
 from skillwrapper.learning.fitting import Fit
@@ -22,6 +23,10 @@ from skillwrapper.learning.predictions import TablePrediction, attempts_of
 from skillwrapper.symbols import Operator, Variable
 from skillwrapper.symbols.operators import Condition
 from skillwrapper.world.domain import Domain
+
+_ENOUGH = 1 << 20
+"""Of an operator that nothing ties down, so many bindings are looked at; a condition that these do
+not put to the test counts as untested."""
 
 
 def find_untested(fit: Fit) -> dict[str, frozenset[Condition]]:
@@ -45,11 +50,24 @@ def _untested(
     left: set[Condition] = {*operator.preconditions, *operator.absences, *narrowed}
     for prediction in predictions:
         indexed = IndexedOperator(operator, prediction.table.space, narrowed)
-        for bindings in find_bindings(indexed, _unfulfilled(learned, prediction), most_unmet=1):
+        attempts, patience = _unfulfilled(learned, prediction), _Patience()
+        for bindings in find_bindings(indexed, attempts, most_unmet=1, wanted=patience):
             alone = bindings.select((bindings.unmet == 1) & ~bindings.unsure)
             unmet = (alone.met() == FALSE).any(axis=0)
             left -= {indexed.conditions[number] for number in np.flatnonzero(unmet)}
     return frozenset(left)
+
+
+class _Patience:
+    """Goes on with what hangs on no unknown label, as long as it is not too much."""
+
+    def __init__(self) -> None:
+        self._seen = 0
+
+    def __call__(self, bindings: Bindings) -> NDArray[np.bool_]:
+        self._seen += len(bindings)
+        going_on: NDArray[np.bool_] = ~bindings.unsure & (self._seen <= _ENOUGH)
+        return going_on
 
 
 def _unfulfilled(learned: LearnedOperator, prediction: TablePrediction) -> Attempts:
