@@ -61,6 +61,8 @@ def plan(
         print_json(_describe(found))
     else:
         _print_plans(found)
+    if found.status is PlanningStatus.ERROR:
+        raise typer.Exit(1)
 
 
 def solve(
@@ -96,7 +98,8 @@ def solve(
         print_json({**_describe(found), **report.to_json(), "gif": animation})
     else:
         _print_solution(found, report, target)
-    if found.status is PlanningStatus.SOLVED and not report.solved:
+    broken = found.status is PlanningStatus.ERROR
+    if broken or (found.status is PlanningStatus.SOLVED and not report.solved):
         raise typer.Exit(1)
 
 
@@ -163,6 +166,8 @@ def _print_solution(found: PlanningResult, report: ExecutionReport, gif: Path) -
     console = results()
     if not report.attempts:
         console.print(f"{found.status}: there is nothing to execute", style="yellow")
+        if found.status is PlanningStatus.ERROR:
+            messages().print(found.cause, markup=False)
         return
     last = report.attempts[-1]
     for instance, outcome in zip(last.plan, last.outcomes, strict=False):

@@ -73,6 +73,7 @@ class Planner:
 
         Raises:
             UnknownNameError: if a goal atom is not one of the scene.
+            FileError: if the PDDL cannot be written.
         """
         return self.solve(
             PlanningProblem.of(GroundModel.of(model, objects), initial, goal), keep_files=keep_files

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from skillwrapper.files.writing import write_atomically
 from skillwrapper.grounding import TRUE, GroundOperator
 from skillwrapper.planning.problem import PlanningProblem, action_name, finish_name
 from skillwrapper.symbols.pddl import comment
@@ -32,12 +33,15 @@ class PlannerFiles:
 
 
 def write_pddl(problem: PlanningProblem, folder: Path) -> PlannerFiles:
-    """Write ``domain.pddl`` and ``problem.pddl`` into a folder, which is made if need be."""
-    folder.mkdir(parents=True, exist_ok=True)
+    """Write ``domain.pddl`` and ``problem.pddl`` into a folder, which is made if need be.
+
+    Raises:
+        FileError: if they cannot be written there.
+    """
     files = PlannerFiles(folder / "domain.pddl", folder / "problem.pddl")
     printer = _Printer(problem, _atom_names(problem))
-    files.domain.write_text(printer.domain(), encoding="utf-8")
-    files.problem.write_text(printer.problem(), encoding="utf-8")
+    write_atomically(files.domain, printer.domain())
+    write_atomically(files.problem, printer.problem())
     return files
 
 
