@@ -22,11 +22,10 @@ from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.folder import held
 from skillwrapper.runs.learn import learn
 from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper
 from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus
-from skillwrapper.vlm.wrapping import ModelWrapper
 
 FAST = {"first_wait": 0.002, "longest_wait": 0.01}
 FAULTS = FaultPlan(

@@ -303,7 +303,7 @@ def test_every_kind_of_invention_shows_its_moments(
 
     answer = helper.invent_predicates(invention(burger, kind))
 
-    assert answer.predicates == (Predicate("hand_free", ("robot",)),)
+    assert answer.predicates == (Predicate("hand_free", ("robot",), "the hand holds nothing."),)
     assert answer.predicates[0].semantics == "the hand holds nothing."
     request = model.requests[0]
     assert [p.png.decode() for p in request.pictures] == shown

@@ -24,13 +24,12 @@ from skillwrapper.errors import (
     TemporaryProviderError,
     UnusableReplyError,
 )
-from skillwrapper.vlm.call_key import call_key, question_key
 from skillwrapper.vlm.limits import CallBudget, CallLimits, LimitedModel
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, Usage
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
 from skillwrapper.vlm.store import CallStore
-from skillwrapper.vlm.stored_call import CallStatus
+from skillwrapper.vlm.stored_call import CallStatus, call_key, question_key
 from skillwrapper.vlm.stored_model import StoredModel
 from skillwrapper.world import Picture
 
@@ -390,7 +389,7 @@ def test_limits_on_calls_cost_and_time() -> None:
     timed = limited(CallLimits(seconds=60))
     timed.complete(request())
     now[0] = 61.0
-    with pytest.raises(LimitReachedError, match=r"61 seconds have passed \(--max-seconds\)"):
+    with pytest.raises(LimitReachedError, match=r"60 seconds have passed \(--max-seconds\)"):
         timed.complete(request())
 
     with pytest.raises(ConfigurationError, match="max-cost"):

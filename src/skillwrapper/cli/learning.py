@@ -22,6 +22,7 @@ from skillwrapper.cli.setting_options import (
     options_given,
     run_settings,
 )
+from skillwrapper.cli.stopping import time_limit
 from skillwrapper.runs.estimate import estimate_run
 from skillwrapper.runs.learn import learn as run_learning
 from skillwrapper.runs.loop import LearningResult
@@ -73,7 +74,8 @@ def learn(
     if dry_run:
         _estimate(settings, as_json)
         return
-    with RunProgress(messages()) as progress:
+    limit = settings.calls.max_seconds
+    with RunProgress(messages()) as progress, time_limit(limit):
         result = run_learning(settings, out, progress)
     if as_json:
         calls = {"model_calls": progress.calls, "calls_made": progress.calls_made}

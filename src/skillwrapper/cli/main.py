@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 import typer
+from rich.text import Text
 
 from skillwrapper.cli import (
     domains,
@@ -19,7 +20,9 @@ from skillwrapper.cli import (
     studies,
 )
 from skillwrapper.cli.output import messages
+from skillwrapper.cli.stopping import StopSignals
 from skillwrapper.errors import InternalError, LimitReachedError, SkillWrapperError
+from skillwrapper.redaction import redact
 
 app = typer.Typer(
     name="skillwrapper",
@@ -46,20 +49,30 @@ for group in _GROUPS:
 
 def main() -> None:
     """Run the command line; a mistake of the user's ends with one sentence and exit code 2."""
-    try:
-        app()
-    except KeyboardInterrupt:
-        messages().print("[yellow]stopped[/]; run the same command again to go on")
-        sys.exit(130)
-    except LimitReachedError as error:
-        messages().print(f"[yellow]stopped:[/] {error}", markup=True)
-        sys.exit(error.exit_code)
-    except SkillWrapperError as error:
-        kind = "internal error" if isinstance(error, InternalError) else "error"
-        console = messages()
-        console.print(f"[red]{kind}:[/] ", end="")
-        console.print(str(error), markup=False, soft_wrap=True)
-        sys.exit(error.exit_code)
+    with StopSignals() as stop:
+        try:
+            app()
+        except SkillWrapperError as error:
+            _tell(error)
+            sys.exit(error.exit_code)
+        except (KeyboardInterrupt, SystemExit) as ended:
+            if stop.received is None:
+                raise
+            said = (
+                "stopped; everything that was finished is kept: run the same command again to go on"
+            )
+            messages().print(Text(said, "yellow"))
+            raise SystemExit(stop.exit_code) from ended
+
+
+def _tell(error: SkillWrapperError) -> None:
+    kind, colour = "error:", "red"
+    if isinstance(error, LimitReachedError):
+        kind, colour = "stopped:", "yellow"
+    elif isinstance(error, InternalError):
+        kind = "internal error:"
+    # Redacted once more: whatever a library wrote into a message, this is where it is seen.
+    messages().print(Text.assemble((kind, colour), " ", redact(str(error))), soft_wrap=True)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,7 @@ class FaultPlan:
         seed: decides which calls fail.
         retry_after: seconds that a rate limit asks to wait.
         slowness: seconds that a slow call takes longer.
+        after: so many calls are answered before the first fails, in the order of arrival.
 
     Raises:
         ConfigurationError: if the rate is no share, or calls should fail in no way.
@@ -72,6 +73,7 @@ class FaultPlan:
     seed: int = 0
     retry_after: float = 0.05
     slowness: float = 0.5
+    after: int = 0
 
     def __post_init__(self) -> None:
         if not 0 <= self.rate <= 1:
@@ -114,5 +116,7 @@ class FaultChooser:
             question: a digest of the call's body.
         """
         self._asked[question] += 1
+        if self._asked.total() <= self._plan.after:
+            return None
         chance = Chance(self._plan.seed, "fault", question, self._asked[question])
         return chance.pick(self._plan.kinds) if chance.happens(self._plan.rate) else None

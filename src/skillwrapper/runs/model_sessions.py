@@ -13,12 +13,17 @@ from skillwrapper.runs.settings import CallSettings, RunSettings
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.limits import CallBudget, LimitedModel
 from skillwrapper.vlm.models import ModelSet
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, VisionLanguageModel
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    ModelWrapper,
+    Role,
+    VisionLanguageModel,
+)
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.retrying import RetryingModel
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_model import StoredModel
-from skillwrapper.vlm.wrapping import ModelWrapper
 
 
 @dataclass
@@ -85,7 +90,8 @@ class CallKeeping:
         kept: VisionLanguageModel = LimitedModel(model, self.counter.budget)
         if self.store is not None:
             kept = StoredModel(kept, self.store, self.shared, lambda: self.counter.iteration)
-        return RetryingModel(kept, self.settings.retries)
+        budget = self.counter.budget
+        return RetryingModel(kept, self.settings.retries, lambda: budget.seconds_left)
 
 
 class _CountedModel(ModelWrapper):

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.redaction import SafeUrl
 from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.retrying import RetryPolicy
@@ -50,8 +51,9 @@ class ModelSettings(BaseModel):
         description="noise profile of the embedded model, or a rate of wrong judgements",
         coerce_numbers_to_str=True,
     )
-    base_url: str | None = Field(
+    base_url: SafeUrl | None = Field(
         default=None,
+        repr=False,
         description="address of an OpenAI-compatible endpoint; none for the provider's own",
     )
     prompts: AbsolutePath | None = Field(
@@ -111,7 +113,7 @@ class CallSettings(BaseModel):
     longest_asked_wait: float = Field(
         default=120.0,
         ge=0.0,
-        description="the longest wait that a provider may ask for",
+        description="a call is given up if the provider asks to wait longer",
         json_schema_extra={"unit": "seconds"},
     )
 

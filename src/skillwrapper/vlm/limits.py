@@ -8,8 +8,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from skillwrapper.errors import ConfigurationError, LimitReachedError, UnusableReplyError
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
-from skillwrapper.vlm.wrapping import ModelWrapper
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    ModelWrapper,
+    Usage,
+    VisionLanguageModel,
+)
 
 
 @dataclass(frozen=True)
@@ -57,6 +62,13 @@ class CallBudget:
         """Calls made so far."""
         return self._calls
 
+    @property
+    def seconds_left(self) -> float | None:
+        """Seconds until the limit on time is reached; None without one."""
+        if self._limits.seconds is None:
+            return None
+        return max(0.0, self._limits.seconds - (self._clock() - self._opened))
+
     def open_call(self) -> None:
         """Count a call that is about to be made.
 
@@ -69,9 +81,8 @@ class CallBudget:
                 raise _reached("calls", f"{limits.calls} calls were made")
             if limits.cost is not None and self._cost >= limits.cost:
                 raise _reached("cost", f"{self._cost:.2f} dollars were spent")
-            seconds = self._clock() - self._opened
-            if limits.seconds is not None and seconds >= limits.seconds:
-                raise _reached("seconds", f"{seconds:.0f} seconds have passed")
+            if limits.seconds is not None and self.seconds_left == 0:
+                raise time_is_up(limits.seconds)
             self._calls += 1
 
     def close_call(self, usage: Usage) -> None:
@@ -107,6 +118,11 @@ class LimitedModel(ModelWrapper):
             raise
         self._budget.close_call(reply.usage)
         return reply
+
+
+def time_is_up(seconds: float) -> LimitReachedError:
+    """For a limit on time that is reached."""
+    return _reached("seconds", f"{seconds:g} seconds have passed")
 
 
 def _reached(option: str, what: str) -> LimitReachedError:

@@ -114,3 +114,37 @@ class TakesBack(Protocol):
     def take_back(self, request: ModelRequest) -> None:
         """Do not serve the reply to a request as an answer again."""
         ...
+
+
+class ModelWrapper:
+    """A model around another one: passes everything on; a base for those that do more.
+
+    Args:
+        model: the model behind.
+    """
+
+    def __init__(self, model: VisionLanguageModel) -> None:
+        self._model = model
+
+    @property
+    def name(self) -> str:
+        """The name of the model behind."""
+        return self._model.name
+
+    @property
+    def parameters(self) -> Mapping[str, str | int | float | bool]:
+        """The parameters of the model behind."""
+        return self._model.parameters
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        """What the model behind answers.
+
+        Raises:
+            ProviderError: as the model behind does.
+        """
+        return self._model.complete(request)
+
+    def take_back(self, request: ModelRequest) -> None:
+        """Pass on that the reply to a request was of no use."""
+        if isinstance(self._model, TakesBack):
+            self._model.take_back(request)

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from skillwrapper.errors import RecordingError
-from skillwrapper.vlm.call_key import question_key
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest
 from skillwrapper.vlm.store import CallStore
-from skillwrapper.vlm.stored_call import CallStatus
+from skillwrapper.vlm.stored_call import CallStatus, question_key
 
 _FILE = "calls.sqlite"
 

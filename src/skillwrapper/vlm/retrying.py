@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,8 +12,13 @@ from skillwrapper.errors import (
     TemporaryProviderError,
     UnusableReplyError,
 )
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
-from skillwrapper.vlm.wrapping import ModelWrapper
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    ModelWrapper,
+    VisionLanguageModel,
+)
+from skillwrapper.vlm.waves import go_on, pause
 
 
 @dataclass(frozen=True)
@@ -25,7 +29,7 @@ class RetryPolicy:
         attempts: in all, at least 1.
         first_wait: seconds before the second attempt; doubles with every further one.
         longest_wait: seconds; no wait is longer unless the provider asks for it.
-        longest_asked_wait: seconds; the longest wait that a provider may ask for.
+        longest_asked_wait: seconds; if a provider asks for more, the call is given up.
 
     Raises:
         ConfigurationError: if there would be no attempt.
@@ -49,7 +53,7 @@ class RetryPolicy:
             jitter: 0 to 1; spreads the waits of calls that failed together.
         """
         if asked is not None:
-            return min(asked, self.longest_asked_wait) * (1 + 0.1 * jitter)
+            return asked * (1 + 0.1 * jitter)
         grown = min(self.first_wait * 2.0 ** min(attempt - 1, 30), self.longest_wait)
         return grown * (0.5 + 0.5 * jitter)
 
@@ -60,6 +64,7 @@ class RetryingModel(ModelWrapper):
     Args:
         model: what is asked.
         policy: how often and after which waits.
+        seconds_left: tells how long calls may be waited for; None for any time.
         sleep: waits; replaced in tests.
     """
 
@@ -67,10 +72,11 @@ class RetryingModel(ModelWrapper):
         self,
         model: VisionLanguageModel,
         policy: RetryPolicy | None = None,
-        sleep: Callable[[float], None] = time.sleep,
+        seconds_left: Callable[[], float | None] = lambda: None,
+        sleep: Callable[[float], None] = pause,
     ) -> None:
         super().__init__(model)
-        self._policy, self._sleep = policy or RetryPolicy(), sleep
+        self._policy, self._seconds_left, self._sleep = policy or RetryPolicy(), seconds_left, sleep
 
     def complete(self, request: ModelRequest) -> ModelReply:
         """Ask until there is a reply.
@@ -81,16 +87,30 @@ class RetryingModel(ModelWrapper):
         """
         jitter = random.Random()  # spreads waits over time; never touches a result
         for attempt in range(1, self._policy.attempts + 1):
+            go_on()
             try:
                 return self._model.complete(request)
             except TemporaryProviderError as error:
-                if attempt == self._policy.attempts:
-                    raise ModelUnavailableError(
-                        f"{self.name}: no usable answer in {attempt} attempts; last: {error}; "
-                        f"{_advice(error)}; what was answered is kept, and the run can be resumed"
-                    ) from error
-                self._sleep(self._policy.wait(attempt, error.retry_after, jitter.random()))
+                self._check(error, attempt)
+                wait = self._policy.wait(attempt, error.retry_after, jitter.random())
+                left = self._seconds_left()
+                # Not past a limit on time; the next attempt then meets the limit itself.
+                self._sleep(wait if left is None else min(wait, left))
         raise ModelUnavailableError(f"{self.name}: no attempt was made")
+
+    def _check(self, error: TemporaryProviderError, attempt: int) -> None:
+        """Whether to try again at all."""
+        kept = "what was answered is kept, and the run can be resumed"
+        if attempt == self._policy.attempts:
+            raise ModelUnavailableError(
+                f"{self.name}: no usable answer in {attempt} attempts; last: {error}; "
+                f"{_advice(error)}; {kept}"
+            ) from error
+        if error.retry_after is not None and error.retry_after > self._policy.longest_asked_wait:
+            raise ModelUnavailableError(
+                f"{self.name}: the provider asks to wait for {error.retry_after:.0f} seconds "
+                f"({error}); {kept} then"
+            ) from error
 
 
 def _advice(error: TemporaryProviderError) -> str:

@@ -1,14 +1,15 @@
-"""What the call store keeps of every call, and what it adds up."""
+"""What the call store keeps of every call: its identity, what became of it, what it took."""
 
 from __future__ import annotations
 
+import hashlib
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
-from skillwrapper.vlm.protocol import Role, Usage
+from skillwrapper.vlm.protocol import ModelRequest, Role, Usage
 
 COLUMNS = (
     "key, question, status, shared, role, iteration, model, parameters, repetition, system,"
@@ -106,6 +107,30 @@ class CallTotals:
     seconds: float = 0.0
 
 
+def question_key(request: ModelRequest) -> str:
+    """SHA-256 of what is asked, whichever model is asked: role, prompts, pictures, repetition."""
+    parts = {
+        "role": str(request.role),
+        "system": request.system,
+        "prompt": request.prompt,
+        "pictures": [[picture.camera, picture.sha256] for picture in request.pictures],
+        "repetition": request.repetition,
+    }
+    return _digest(parts)
+
+
+def call_key(
+    model: str, parameters: Mapping[str, str | int | float | bool], request: ModelRequest
+) -> str:
+    """SHA-256 of what is asked, of whom, and with which settings."""
+    parts = {
+        "model": model,
+        "parameters": dict(parameters),
+        "question": question_key(request),
+    }
+    return _digest(parts)
+
+
 def row_of(call: StoredCall) -> tuple[Any, ...]:
     """A call as the store writes it."""
     return (
@@ -165,3 +190,8 @@ def join_totals(
         totals[role, iteration] = replace(known, served=times)
     roles = list(Role)
     return tuple(sorted(totals.values(), key=lambda t: (t.iteration or 0, roles.index(t.role))))
+
+
+def _digest(parts: Mapping[str, object]) -> str:
+    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()

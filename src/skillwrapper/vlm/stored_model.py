@@ -10,11 +10,15 @@ from dataclasses import replace
 
 from skillwrapper.errors import UnusableReplyError
 from skillwrapper.vlm.answers import clean_text
-from skillwrapper.vlm.call_key import call_key, question_key
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage, VisionLanguageModel
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    ModelWrapper,
+    Usage,
+    VisionLanguageModel,
+)
 from skillwrapper.vlm.store import CallStore
-from skillwrapper.vlm.stored_call import CallStatus, StoredCall
-from skillwrapper.vlm.wrapping import ModelWrapper
+from skillwrapper.vlm.stored_call import CallStatus, StoredCall, call_key, question_key
 
 
 class StoredModel(ModelWrapper):

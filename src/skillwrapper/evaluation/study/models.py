@@ -12,12 +12,11 @@ from skillwrapper.runs.models import EMBEDDED, open_model
 from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, VisionLanguageModel
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper, VisionLanguageModel
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_model import StoredModel
-from skillwrapper.vlm.wrapping import ModelWrapper
 
 _REPETITIONS_A_RUN = 1000
 """More than a question is ever repeated in one run."""

@@ -1,0 +1,86 @@
+"""Ctrl-C, SIGTERM and limits end commands within two seconds, whatever they wait for."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from skillwrapper.embedded import EmbeddedModel
+from skillwrapper.embedded.server import ServerSettings, VlmServer
+from skillwrapper.embedded.server_faults import FaultPlan
+
+WITHIN = 2.0
+
+
+def start(out: Path, server: VlmServer, *more: str) -> subprocess.Popen[str]:
+    line = ["learn", "burger", "--out", str(out), "--model", "openai:embedded"]
+    line += ["--base-url", server.url, "--parallel", "8", "--votes", "8", *more]
+    environment = {k: v for k, v in os.environ.items() if not k.lower().endswith("_proxy")}
+    return subprocess.Popen(
+        [sys.executable, "-m", "skillwrapper", *line],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+    )
+
+
+def waiting(server: VlmServer) -> None:
+    """Until eight calls are in flight, or wait for a retry."""
+    latest = time.monotonic() + 20
+    while server.calls < 2 + 8 and time.monotonic() < latest:
+        time.sleep(0.05)
+    time.sleep(0.3)
+
+
+def ended(process: subprocess.Popen[str]) -> tuple[int, str]:
+    """The exit code and what was said; fails if it takes too long."""
+    try:
+        _, said = process.communicate(timeout=WITHIN + 1.0)  # and a second for a busy machine
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        raise
+    return process.returncode, said
+
+
+def busy_for(seconds: float, kind: str) -> VlmServer:
+    """A server that answers a few calls, then lets all others wait."""
+    plan = FaultPlan(1.0, (kind,), retry_after=seconds, slowness=seconds, after=2)
+    return VlmServer(EmbeddedModel(0), ServerSettings(faults=plan))
+
+
+@pytest.mark.parametrize(
+    ("number", "code", "kind"),
+    [(signal.SIGINT, 130, "rate-limit"), (signal.SIGTERM, 143, "slow")],
+)
+def test_signals(number: signal.Signals, code: int, kind: str, tmp_path: Path) -> None:
+    with busy_for(60, kind) as server:
+        process = start(tmp_path / "run", server)
+        waiting(server)
+        process.send_signal(number)
+        returned, said = ended(process)
+    assert returned == code
+    assert "run the same command again to go on" in " ".join(said.split())
+    assert "Traceback" not in said
+    assert not [p for p in (tmp_path / "run").rglob("*") if "tmp" in p.suffix]
+
+
+@pytest.mark.parametrize("kind", ["rate-limit", "slow"])
+def test_a_limit_on_time(kind: str, tmp_path: Path) -> None:
+    with busy_for(60, kind) as server:
+        process = start(tmp_path / "run", server, "--max-seconds", "4")
+        waiting(server)
+        try:
+            _, said = process.communicate(timeout=4 + WITHIN)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
+    assert process.returncode == 3
+    assert "limit reached: 4 seconds" in said
