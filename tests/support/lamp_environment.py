@@ -39,6 +39,8 @@ LAMP_DOMAIN = Domain(
 class LampEnvironment:
     """States are whether the lamp is lit; the seed chooses the colour of the picture."""
 
+    replayable = True
+
     def __init__(self) -> None:
         self._lit = False
         self._seed: int | None = None

@@ -55,6 +55,8 @@ class LampEnvironment:
         stops_after: how many skills are run before the robot breaks down.
     """
 
+    replayable = True
+
     def __init__(self, domain: Domain, stops_after: int = 10**9) -> None:
         self._domain = domain
         self._left = stops_after

@@ -137,11 +137,8 @@ class OldPictureInOutcome(LampEnvironment):
 
 
 class FailuresChangeSomething(LampEnvironment):
-    def execute(self, instance: SkillInstance) -> Outcome:
-        outcome = super().execute(instance)
-        if not outcome.success:
-            return replace(outcome, observation=self.set_state(not self._lit))
-        return outcome
+    def successor(self, state: bool, instance: SkillInstance) -> tuple[bool, bool]:
+        return super().successor(state, instance)[0], not state
 
 
 class ClosesOnce(LampEnvironment):

@@ -1,4 +1,4 @@
-"""Every rule of EnumerableEnvironment has a simulator that breaks it, and is caught."""
+"""Every rule of a capability has a simulator that breaks it, and is caught."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import pytest
 from lamp_environment import LampEnvironment
 
 from skillwrapper.errors import ConformanceError
-from skillwrapper.world import EnumerableEnvironment, Observation, SkillInstance
-from skillwrapper.world.conformance_states import check_enumerable_environment
+from skillwrapper.world import Enumerable, Observation, SkillInstance
+from skillwrapper.world.conformance import check_environment
 
 
 class NoStates(LampEnvironment):
@@ -39,8 +39,9 @@ class IgnoresSetState(LampEnvironment):
 
 
 class ShowsAnotherState(LampEnvironment):
-    def observe(self) -> Observation:
-        return super().observe_state(not self._lit)
+    def set_state(self, state: bool, *, seed: int | None = None) -> Observation:
+        seen = super().set_state(state, seed=seed)
+        return seen if seed is not None else super().observe_state(not state)
 
 
 class LayoutDrifts(LampEnvironment):
@@ -115,7 +116,7 @@ class AtomTwice(LampEnvironment):
 
 
 def test_simulator_that_keeps_all_rules_passes() -> None:
-    check_enumerable_environment(LampEnvironment)
+    check_environment(LampEnvironment)
 
 
 def test_basic_rules_are_checked_too() -> None:
@@ -124,7 +125,7 @@ def test_basic_rules_are_checked_too() -> None:
             raise RuntimeError("stuck")
 
     with pytest.raises(ConformanceError, match=r"^close: "):
-        check_enumerable_environment(Unready)
+        check_environment(Unready)
 
 
 @pytest.mark.parametrize(
@@ -148,7 +149,7 @@ def test_basic_rules_are_checked_too() -> None:
         (AtomTwice, "true atoms"),
     ],
 )
-def test_broken_simulator_is_caught(broken: type[EnumerableEnvironment], check: str) -> None:
+def test_broken_simulator_is_caught(broken: type[Enumerable], check: str) -> None:
     with pytest.raises(ConformanceError, match=r"expected .*") as caught:
-        check_enumerable_environment(broken)
+        check_environment(broken)
     assert caught.value.check == check

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,13 +12,22 @@ import typer
 from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.domains.discovery import find_domain
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
-from skillwrapper.world.domain import Domain, load_domain
-from skillwrapper.world.environment import EnumerableEnvironment, Environment
+from skillwrapper.world.capabilities import (
+    Enumerable,
+    Settable,
+    capabilities_of,
+    require,
+    supports,
+)
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation
-from skillwrapper.world.skills import SkillInstance, parse_skill_instance
+from skillwrapper.world.scenes import Scene
+from skillwrapper.world.skills import ground_skills, parse_skill_instance
 
 
 def register(app: typer.Typer) -> None:
@@ -25,31 +36,28 @@ def register(app: typer.Typer) -> None:
     app.command()(render)
 
 
+SceneOption = Annotated[str | None, typer.Option(help="One of the domain's scenes.")]
+
+
 def show_domain(
-    name: Annotated[str, typer.Argument(help="A bundled domain, or a domain.yaml to check.")],
-    as_json: JsonFlag = False,
+    reference: DomainArgument, scene: SceneOption = None, as_json: JsonFlag = False
 ) -> None:
-    """Show types, objects and skills of a domain."""
-    figures: dict[str, Any] = {}
-    if Path(name).suffix in (".yaml", ".yml"):
-        domain = load_domain(Path(name))
-    else:
-        environment = find_domain(name).make_environment()
-        domain = environment.domain
-        if isinstance(environment, EnumerableEnvironment):
-            figures["reachable_states"] = len(environment.reachable_states())
-        environment.close()
-    figures["skill_instances"] = len(domain.skill_instances)
+    """Show types, objects, skills and scenes of a domain, and what its robot can do."""
+    package = find_domain(reference)
+    scenes = [package.domain.scene(scene)] if scene else list(package.domain.scenes.values())
+    found = {**_describe(package.domain, scenes), **_find_out(package, scenes)}
     if as_json:
-        print_json({**_describe(domain), **figures})
+        print_json(found)
     else:
-        _print_domain(domain, figures)
+        _print_domain(package.domain, found)
 
 
 def render(
-    name: DomainArgument,
+    reference: DomainArgument,
     out: Annotated[Path, typer.Option(help="The PNG file to write.")],
     seed: Annotated[int, typer.Option(min=0, help="Chooses the layout.")] = 0,
+    scene: SceneOption = None,
+    camera: Annotated[str | None, typer.Option(help="Which camera; the first by default.")] = None,
     state: Annotated[
         str | None,
         typer.Option(help="A YAML file of a state, or the number of a reachable one."),
@@ -61,17 +69,18 @@ def render(
     as_json: JsonFlag = False,
 ) -> None:
     """Write a picture of a domain in some state."""
-    environment = find_domain(name).make_environment()
-    observation = environment.reset(seed=seed)
+    environment = find_domain(reference).make_environment()
+    observation = environment.reset(seed=seed, scene=scene)
     if state is not None:
         observation = _set_state(environment, state, seed)
     outcomes = []
     for text in skills or []:
-        instance = _parse_instance(environment.domain, text)
+        instance = parse_skill_instance(text)
+        environment.domain.check_instance(instance, environment.scene)
         outcome = environment.execute(instance)
         observation = outcome.observation
         outcomes.append({"skill": str(instance), "success": outcome.success})
-    write_atomically(out, observation.pictures[0].png)
+    write_atomically(out, observation.picture(camera).png)
     environment.close()
     if as_json:
         print_json({"picture": str(out), "skills": outcomes})
@@ -84,40 +93,55 @@ def render(
 
 def _set_state(environment: Environment, text: str, seed: int) -> Observation:
     """Put the environment into a state that a number or a file names."""
-    if not isinstance(environment, EnumerableEnvironment):
-        raise ConfigurationError(f"--state: the states of {environment.domain.name} are not known")
     if not text.isdigit():
+        settable = require(environment, Settable, "--state")
         document = YamlDocument.read(Path(text))
-        return environment.set_state(environment.state_from_data(document.data), seed=seed)
-    states = environment.reachable_states()
+        return settable.set_state(settable.state_from_data(document.data), seed=seed)
+    enumerable = require(environment, Enumerable, "--state with a number")
+    states = enumerable.reachable_states()
     if int(text) >= len(states):
         raise ConfigurationError(f"--state: expected 0 to {len(states) - 1}, got {text}")
-    return environment.set_state(states[int(text)], seed=seed)
+    return enumerable.set_state(states[int(text)], seed=seed)
 
 
-def _parse_instance(domain: Domain, text: str) -> SkillInstance:
-    instance = parse_skill_instance(text)
-    domain.check_instance(instance)
-    return instance
-
-
-def _describe(domain: Domain) -> dict[str, Any]:
+def _describe(domain: Domain, scenes: Sequence[Scene]) -> dict[str, Any]:
+    present = {o for scene in scenes for o in scene.objects}
+    instances = {i for scene in scenes for i in ground_skills(domain.skills, scene.objects)}
     return {
         "name": domain.name,
         "types": {
             t: {"parents": list(domain.types.parents[t]), "meaning": domain.types.descriptions[t]}
             for t in domain.types.names
         },
-        "objects": {o.name: list(o.types) for o in domain.objects},
+        "objects": {o.name: list(o.types) for o in domain.objects if o in present},
         "skills": {
             s.name: {p.name: {"type": p.type, "role": p.role} for p in s.parameters}
             for s in domain.skills
         },
+        "scenes": {scene.name: list(scene.names) for scene in scenes},
         "failures_change_nothing": domain.failures_change_nothing,
+        "skill_instances": len(instances),
     }
 
 
-def _print_domain(domain: Domain, figures: dict[str, Any]) -> None:
+def _find_out(package: DomainPackage, scenes: Sequence[Scene]) -> dict[str, Any]:
+    """What only the domain's robot tells; nothing is executed."""
+    if not package.has("robot"):
+        return {"robot": False}
+    with closing(package.make_environment()) as environment:
+        found: dict[str, Any] = {"robot": True, "capabilities": list(capabilities_of(environment))}
+        if supports(environment, Enumerable):
+            listed = require(environment, Enumerable, "counting states")
+            found["abstract_states"] = {s.name: _count_states(listed, s) for s in scenes}
+    return found
+
+
+def _count_states(environment: Enumerable, scene: Scene) -> int:
+    environment.reset(seed=0, scene=scene.name)
+    return len(environment.reachable_states())
+
+
+def _print_domain(domain: Domain, found: Mapping[str, Any]) -> None:
     console = results()
     console.print(f"[bold]{domain.name}[/]: {domain.agent}")
     console.print("\n[bold]types[/]")
@@ -125,12 +149,19 @@ def _print_domain(domain: Domain, figures: dict[str, Any]) -> None:
         parents = ", ".join(domain.types.parents[name])
         console.print(f"  {name}{f' (a {parents})' if parents else ''}", markup=False)
     console.print("\n[bold]objects[/]")
-    for thing in domain.objects:
-        console.print(f"  {thing.name}: {', '.join(thing.types)}", markup=False)
+    for name, types in found["objects"].items():
+        console.print(f"  {name}: {', '.join(types)}", markup=False)
     console.print("\n[bold]skills[/]")
     for skill in domain.skills:
         parameters = ", ".join(f"{p.name}: {p.type}" for p in skill.parameters)
         console.print(f"  {skill.name}({parameters})  {skill.description}", markup=False)
-    console.print("")
-    for figure, value in figures.items():
-        console.print(f"{figure.replace('_', ' ')}: {value}", markup=False)
+    console.print("\n[bold]scenes[/]")
+    counts = found.get("abstract_states", {})
+    for name, objects in found["scenes"].items():
+        states = f"  ({counts[name]} reachable states)" if name in counts else ""
+        console.print(f"  {name}: {', '.join(objects)}{states}", markup=False)
+    console.print(f"\nskill instances: {found['skill_instances']}", markup=False)
+    if found["robot"]:
+        console.print(f"capabilities: {', '.join(found['capabilities']) or 'none'}", markup=False)
+    else:
+        console.print("no robot: its skills cannot be executed", markup=False)

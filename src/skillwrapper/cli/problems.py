@@ -14,7 +14,7 @@ from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
 from skillwrapper.evaluation.problems.problems import ProblemSet
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, require
 
 
 def register(app: typer.Typer) -> None:
@@ -33,9 +33,7 @@ def problems(
 ) -> None:
     """Make test problems by exact search; the same seed makes the same ones."""
     package = find_domain(domain)
-    environment = package.make_environment()
-    if not isinstance(environment, EnumerableEnvironment):
-        raise ConfigurationError(f"{domain}: its states cannot be listed; write problems by hand")
+    environment = require(package.make_environment(), Enumerable, "making problems")
     if out is not None and out.exists():
         raise ConfigurationError(f"{out} exists already; choose another --out, nothing was changed")
     with messages().status("searching all states"):

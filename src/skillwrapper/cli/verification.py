@@ -10,7 +10,6 @@ from rich.console import Console
 from rich.table import Table
 
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.exact.learning_curves import (
     CurvePoint,
     area_under,
@@ -24,7 +23,7 @@ from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.runs.model_sessions import open_session
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, require
 
 _CURVE_COLUMNS = (
     "executions", "precision", "recall", "effect accuracy", "predicates", "operators",
@@ -65,11 +64,8 @@ def run_verification(
     """
     started = time.monotonic()
     config = learned.folder.config()
-    environment = find_domain(config.domain).make_environment()
-    if not isinstance(environment, EnumerableEnvironment):
-        raise ConfigurationError(
-            f"{config.domain}: its states cannot be listed, so there is no exact verification"
-        )
+    package = find_domain(config.domain)
+    environment = require(package.make_environment(), Enumerable, "exact verification")
     layout = TRUTH_LAYOUT if layout_seed is None else layout_seed
     with (
         open_session(config, learned.folder.calls, learning=False) as session,

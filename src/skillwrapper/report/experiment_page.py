@@ -12,7 +12,7 @@ from skillwrapper.files.writing import write_atomically
 from skillwrapper.report.experiment_contents import ExperimentContents, ProblemCases
 from skillwrapper.report.page import page_environment
 from skillwrapper.report.pictures import Thumbnails
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 
 _PICTURE_WIDTH = 200
 
@@ -22,16 +22,16 @@ class _ProblemPictures:
 
     def __init__(self, width: int) -> None:
         self._thumbnails = Thumbnails(width)
-        self._environments: dict[str, EnumerableEnvironment] = {}
+        self._environments: dict[str, Enumerable] = {}
 
     def of(self, case: ProblemCases) -> tuple[str, str]:
         """The first picture of the start and of the goal as data URIs."""
         if case.domain not in self._environments:
             self._environments[case.domain] = enumerable_environment(case.domain)
         environment, problem = self._environments[case.domain], case.problem
-        start = environment.state_from_data(problem.initial)
+        start, end = (environment.state_from_data(d) for d in (problem.initial, problem.goal))
         seen = environment.set_state(start, seed=problem.layout)
-        goal = environment.observe_state(environment.state_from_data(problem.goal))
+        goal = environment.set_state(end)
         first, last = (self._thumbnails.uri(o.pictures[0].png) for o in (seen, goal))
         return first, last
 

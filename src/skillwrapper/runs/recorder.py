@@ -9,6 +9,7 @@ from skillwrapper.errors import RobotError, RunFolderError
 from skillwrapper.files.json_documents import read_lines
 from skillwrapper.files.writing import append_line
 from skillwrapper.runs.folder import RunFolder
+from skillwrapper.world.capabilities import Replayable, supports
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
@@ -27,7 +28,7 @@ class EpisodeRecorder:
 
     An episode that was cut short by a crash is continued: the environment is reset with the
     same seed and what was recorded is executed again and compared. An environment that cannot
-    do that (a robot) says so with ``replayable = False``; its episode then ends where the
+    do that (a robot) is not ``Replayable``; its episode then ends where the
     record ends.
     """
 
@@ -65,7 +66,7 @@ class EpisodeRecorder:
                 "chooses; resume with the version that made the run (config.yaml)"
             )
         transitions = read_transitions(self._folder, start, entries)
-        if len(transitions) < len(sequence) and getattr(self._environment, "replayable", True):
+        if len(transitions) < len(sequence) and supports(self._environment, Replayable):
             self._repeat(start, seed, scene, transitions)
             for instance in sequence[len(transitions) :]:
                 transitions.append(self._execute(number, transitions, start, instance))

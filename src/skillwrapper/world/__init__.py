@@ -1,7 +1,15 @@
 """The robot's world as far as it is known from the start: types, objects, skills, pictures."""
 
+from skillwrapper.world.capabilities import (
+    Enumerable,
+    Judged,
+    Replayable,
+    Settable,
+    Simulable,
+    Truthful,
+)
 from skillwrapper.world.domain import Domain, load_domain
-from skillwrapper.world.environment import EnumerableEnvironment, Environment
+from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Outcome, Transition
 from skillwrapper.world.observation import Observation, Picture, encode_png, load_picture
 from skillwrapper.world.scenes import Scene
@@ -10,18 +18,23 @@ from skillwrapper.world.types import Object, TypeHierarchy
 
 __all__ = [
     "Domain",
-    "EnumerableEnvironment",
+    "Enumerable",
     "Environment",
     "Episode",
+    "Judged",
     "Object",
     "Observation",
     "Outcome",
     "Parameter",
     "Picture",
+    "Replayable",
     "Scene",
+    "Settable",
+    "Simulable",
     "Skill",
     "SkillInstance",
     "Transition",
+    "Truthful",
     "TypeHierarchy",
     "encode_png",
     "ground_skills",

@@ -1,233 +1,215 @@
-"""One check that any environment can be put through, simulator or robot.
+"""One check that any environment can be put through, robot or simulator.
 
 A new environment's test is one line::
 
     check_environment(MyEnvironment)
+
+There are two levels. A *robot* is asked for nothing that a world of matter cannot give: pictures of
+one state may differ, and nothing is expected to happen twice in the same way. A *simulator* starts
+in the same state from the same seed, and looking changes nothing; states are compared where they
+can be read, and pictures only where the environment says that they repeat (``Replayable``). What
+else an environment says that it can do (docs/semantics.md D20) is checked at either level.
 """
 
 from __future__ import annotations
 
-import io
 import random
 from collections.abc import Callable, Iterator
 from functools import partial
-
-from PIL import Image, UnidentifiedImageError
+from typing import Literal
 
 from skillwrapper.errors import ConformanceError, RobotError, UserError
+from skillwrapper.world.capabilities import Replayable, Settable, supports
+from skillwrapper.world.conformance_capabilities import check_capabilities
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
+from skillwrapper.world.episode import Outcome
+from skillwrapper.world.examined import Examined, expect, expect_error
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance, ground_skills
 
 Factory = Callable[[], Environment]
+Level = Literal["robot", "simulator"]
+
+_MEMBERS = ("domain", "scene", "reset", "execute", "observe", "close")
 
 
-def check_environment(make: Factory, *, seed: int = 0, steps: int = 40) -> None:
-    """Put an environment through every check of the ``Environment`` protocol.
+def check_environment(
+    make: Factory,
+    *,
+    level: Level | None = None,
+    seed: int = 0,
+    steps: int = 40,
+    sample: int = 30,
+) -> None:
+    """Put an environment through every check of its level and of its capabilities.
 
     Args:
-        make: makes a new environment; called several times.
-        seed: of the resets and of the skills that are chosen.
+        make: makes a new environment; called once for a robot, several times for a simulator.
+        level: what is asked; None for a simulator if states can be read or pictures repeat, and
+            else for a robot.
+        seed: of the resets, and of what is chosen by chance.
         steps: how many random skill instances are run in a row.
+        sample: how many of the reachable states are looked at more closely.
 
     Raises:
-        ConformanceError: names the first check that failed, what was expected and what came.
+        ConformanceError: names the first check that failed, the method, what was expected and
+            what came.
     """
-    _check_protocol(make)
-    _check_before_reset(make, seed)
-    _check_scene(make, seed)
-    _check_scenes(make, seed)
-    _check_pictures(make, seed)
-    _check_observe(make, seed)
-    _check_reset(make, seed, steps)
-    _check_unknown_instances(make, seed)
-    _check_outcomes(make, seed, steps)
-    _check_close(make, seed)
-
-
-def require(condition: bool, check: str, message: str) -> None:
-    """Raise ``ConformanceError`` unless a condition holds."""
-    if not condition:
-        raise ConformanceError(check, message)
-
-
-def random_instances(environment: Environment, seed: int, count: int) -> Iterator[SkillInstance]:
-    """Skill instances over the objects that are present, chosen at random by seed."""
-    domain = environment.domain
-    instances = ground_skills(domain.skills, environment.scene.objects)
-    require(bool(instances), "scene", "expected objects that some skill accepts, got none")
-    chance = random.Random(seed)
-    for _ in range(count):
-        yield chance.choice(instances)
-
-
-def _check_protocol(make: Factory) -> None:
     environment = make()
-    members = ("domain", "scene", "reset", "execute", "observe", "close")
-    missing = [name for name in members if not hasattr(environment, name)]
-    require(not missing, "protocol", f"expected all of {members}, got no {', '.join(missing)}")
-    require(
-        isinstance(environment.domain, Domain),
-        "protocol",
-        f"expected a Domain as domain, got {type(environment.domain).__name__}",
-    )
+    _check_protocol(environment)
+    if level is None:
+        repeats = supports(environment, Settable) or supports(environment, Replayable)
+        level = "simulator" if repeats else "robot"
+    examined = Examined(environment)
+    _check_before_reset(examined)
+    start = examined.reset("reset", seed)
+    _check_scene(environment)
+    _check_unknown_scene(environment, seed)
+    if level == "simulator":
+        _check_scenes(examined, seed)
+        _check_observe(examined, seed)
+        _check_reset(examined, make, seed, steps)
+    _check_unknown_instances(examined, compare=level == "simulator")
+    _check_outcomes(examined, start, seed, steps, compare=level == "simulator")
+    check_capabilities(examined, seed, sample)
+    _check_close(environment)
 
 
-def _check_before_reset(make: Factory, seed: int) -> None:
-    prepared = make()
-    prepared.reset(seed=seed)
-    instance = next(random_instances(prepared, seed, 1))
-    calls: dict[str, Callable[[Environment], object]] = {
-        "observe": lambda environment: environment.observe(),
-        "execute": partial(_execute, instance),
-    }
-    for name, call in calls.items():
-        _require_error(RobotError, "before reset", f"{name} before reset", call, make())
+def _check_protocol(environment: Environment) -> None:
+    missing = [name for name in _MEMBERS if not hasattr(environment, name)]
+    expect(not missing, "protocol", f"expected all of {_MEMBERS}, got no {', '.join(missing)}")
+    kind = type(environment.domain).__name__
+    expect(kind == Domain.__name__, "protocol", f"domain: expected a Domain, got {kind}")
 
 
-def _check_scene(make: Factory, seed: int) -> None:
-    environment = make()
-    environment.reset(seed=seed)
-    scene = environment.scene
-    require(
-        isinstance(scene, Scene), "scene", f"expected a Scene as scene, got {type(scene).__name__}"
-    )
+def _check_before_reset(examined: Examined) -> None:
+    environment = examined.environment
+    instances = _instances(environment.domain, environment.domain.scene())
+    expect_error(RobotError, "before reset", "observe() before reset", environment.observe)
+    execute = f"execute({instances[0]}) before reset"
+    expect_error(RobotError, "before reset", execute, lambda: environment.execute(instances[0]))
+
+
+def _check_scene(environment: Environment) -> None:
+    scene: object = environment.scene
+    if not isinstance(scene, Scene):
+        kind = type(scene).__name__
+        raise ConformanceError("scene", f"scene: expected a Scene, got {kind}")
     known = [o.name for o in environment.domain.objects]
     unknown = sorted(set(scene.names) - set(known))
-    require(not unknown, "scene", f"expected objects of the domain, got {', '.join(unknown)}")
+    expect(not unknown, "scene", f"scene: expected objects of the domain, got {unknown}")
     expected = tuple(name for name in known if name in scene.names)
-    require(
+    expect(
         scene.names == expected and bool(expected),
         "scene",
-        f"expected each object once in the domain's order {expected}, got {scene.names}",
+        f"scene: expected each object once in the domain's order {expected}, got {scene.names}",
     )
 
 
-def _check_scenes(make: Factory, seed: int) -> None:
-    """Every declared scene can be started in, and no other."""
-    environment = make()
-    for name, scene in environment.domain.scenes.items():
-        environment.reset(seed=seed, scene=name)
-        got = environment.scene
-        require(got == scene, "scene", f"expected {scene.names} in scene '{name}', got {got.names}")
-    unknown = partial(_reset, seed, "no such scene")
-    _require_error(UserError, "scene", "reset to an unknown scene", unknown, environment)
+def _check_unknown_scene(environment: Environment, seed: int) -> None:
+    what = f"reset(seed={seed}, scene='no-such-scene')"
+    unknown = "no-such-scene"
+    expect_error(UserError, "scene", what, lambda: environment.reset(seed=seed, scene=unknown))
 
 
-def _check_pictures(make: Factory, seed: int) -> None:
-    environment = make()
-    observation = environment.reset(seed=seed)
-    cameras = [picture.camera for picture in observation.pictures]
-    require(bool(cameras), "pictures", "expected at least one picture, got none")
-    require(
-        len(set(cameras)) == len(cameras),
-        "pictures",
-        f"expected a different camera each, got {cameras}",
-    )
-    for picture in observation.pictures:
-        kind = _picture_format(picture.png)
-        require(kind == "PNG", "pictures", f"expected PNG of '{picture.camera}', got {kind}")
+def _check_scenes(examined: Examined, seed: int) -> None:
+    """Every declared scene can be started in."""
+    for name, scene in examined.environment.domain.scenes.items():
+        examined.reset("scene", seed, name)
+        got = examined.environment.scene
+        what = f"reset(seed={seed}, scene='{name}')"
+        expect(got == scene, "scene", f"{what}: expected {scene.names}, got {got.names}")
 
 
-def _check_observe(make: Factory, seed: int) -> None:
-    environment = make()
-    start = environment.reset(seed=seed)
-    for number in ("first", "second"):
-        _require_same(start, environment.observe(), "observe", f"the {number} look after reset")
-
-
-def _check_reset(make: Factory, seed: int, steps: int) -> None:
-    environment = make()
-    start = environment.reset(seed=seed)
-    _require_same(start, environment.reset(seed=seed), "reset", "reset with the same seed")
-    for instance in random_instances(environment, seed, steps):
-        environment.execute(instance)
-    _require_same(start, environment.reset(seed=seed), "reset", "reset after some skills")
-    _require_same(start, make().reset(seed=seed), "reset", "reset of a new environment")
-
-
-def _check_unknown_instances(make: Factory, seed: int) -> None:
-    environment = make()
-    start = environment.reset(seed=seed)
-    instance = next(random_instances(environment, seed, 1))
+def _check_unknown_instances(examined: Examined, *, compare: bool) -> None:
+    environment = examined.environment
+    before = examined.snapshot("unknown instance") if compare else None
+    instance = _instances(environment.domain, environment.scene)[0]
     wrong = (
         SkillInstance("no such skill", instance.arguments),
         SkillInstance(instance.skill, ("no such object", *instance.arguments[1:])),
         SkillInstance(instance.skill, (*instance.arguments, *instance.arguments)),
     )
     for unknown in wrong:
-        what = f"execution of {unknown}"
-        _require_error(UserError, "unknown instance", what, partial(_execute, unknown), environment)
-        _require_same(start, environment.observe(), "unknown instance", f"a look after {what}")
+        what = f"execute({unknown})"
+        expect_error(UserError, "unknown instance", what, partial(environment.execute, unknown))
+        if compare:
+            examined.expect_same(before, "unknown instance", f"the refused {what}")
 
 
-def _check_outcomes(make: Factory, seed: int, steps: int) -> None:
-    environment = make()
-    before = environment.reset(seed=seed)
-    constant = environment.domain.failures_change_nothing
-    for instance in random_instances(environment, seed, steps):
-        outcome = environment.execute(instance)
-        _require_same(
-            outcome.observation, environment.observe(), "outcome", f"a look after {instance}"
-        )
-        if constant and not outcome.success:
-            what = f"the failed {instance}"
-            _require_same(before, outcome.observation, "failures change nothing", what)
-        before = outcome.observation
+def _check_observe(examined: Examined, seed: int) -> None:
+    start = examined.reset("observe", seed)
+    state = examined.state
+    for number in ("first", "second"):
+        seen, what = examined.observe("observe"), f"the {number} observe() after reset"
+        if supports(examined.environment, Replayable):
+            expect(
+                seen.key == start.key, "observe", f"{what}: expected the same pictures, got others"
+            )
+        expect(examined.state == state, "observe", f"{what}: expected {state}, got another state")
 
 
-def _check_close(make: Factory, seed: int) -> None:
-    environment = make()
-    environment.reset(seed=seed)
+def _check_reset(examined: Examined, make: Factory, seed: int, steps: int) -> None:
+    examined.reset("reset", seed)
+    start, what = examined.snapshot("reset"), f"reset(seed={seed})"
+    examined.reset("reset", seed)
+    examined.expect_same(start, "reset", f"a second {what}")
+    for instance in _random_instances(examined.environment, seed, steps):
+        examined.execute("reset", instance)
+    examined.reset("reset", seed)
+    examined.expect_same(start, "reset", f"{what} after some skills")
+    other = Examined(make())
+    other.reset("reset", seed)
+    other.expect_same(start, "reset", f"{what} of a new environment")
+    _check_close(other.environment)
+
+
+def _check_outcomes(
+    examined: Examined, start: Observation, seed: int, steps: int, *, compare: bool
+) -> None:
+    cameras = [picture.camera for picture in start.pictures]
+    constant = examined.environment.domain.failures_change_nothing
+    examined.reset("outcome", seed)
+    for instance in _random_instances(examined.environment, seed, steps):
+        before = examined.snapshot("outcome") if compare else None
+        outcome = examined.execute("outcome", instance)
+        got = [picture.camera for picture in outcome.observation.pictures]
+        expect(got == cameras, "outcome", f"execute({instance}): expected {cameras}, got {got}")
+        if compare:
+            _check_outcome(examined, before, instance, outcome, constant=constant)
+
+
+def _check_outcome(
+    examined: Examined, before: object, instance: SkillInstance, outcome: Outcome, *, constant: bool
+) -> None:
+    if supports(examined.environment, Replayable):
+        same = examined.observe("outcome").key == outcome.observation.key
+        what = f"execute({instance}): expected the pictures of a look afterwards, got others"
+        expect(same, "outcome", what)
+    if constant and not outcome.success:
+        examined.expect_same(before, "failures change nothing", f"the failed execute({instance})")
+
+
+def _check_close(environment: Environment) -> None:
     for number in ("first", "second"):
         try:
             environment.close()
         except Exception as error:
-            message = f"expected the {number} close to pass, got {error!r}"
+            message = f"close(): expected the {number} one to pass, got {error!r}"
             raise ConformanceError("close", message) from error
 
 
-def _reset(seed: int, scene: str, environment: Environment) -> None:
-    environment.reset(seed=seed, scene=scene)
+def _random_instances(environment: Environment, seed: int, count: int) -> Iterator[SkillInstance]:
+    """Skill instances over the objects that are present, chosen at random by seed."""
+    instances = _instances(environment.domain, environment.scene)
+    chance = random.Random(seed)
+    for _ in range(count):
+        yield chance.choice(instances)
 
 
-def _execute(instance: SkillInstance, environment: Environment) -> None:
-    environment.execute(instance)
-
-
-def _require_error(
-    kind: type[Exception],
-    check: str,
-    what: str,
-    call: Callable[[Environment], object],
-    environment: Environment,
-) -> None:
-    """The call must raise an error of the kind."""
-    try:
-        call(environment)
-    except kind:
-        return
-    except Exception as error:
-        message = f"expected {kind.__name__} from {what}, got {error!r}"
-        raise ConformanceError(check, message) from error
-    raise ConformanceError(check, f"expected {kind.__name__} from {what}, got no error")
-
-
-def _require_same(expected: Observation, got: Observation, check: str, what: str) -> None:
-    require(
-        expected.key == got.key,
-        check,
-        f"expected the same pictures as before from {what}, got others "
-        f"({expected.key[:8]}, then {got.key[:8]})",
-    )
-
-
-def _picture_format(png: bytes) -> str:
-    try:
-        with Image.open(io.BytesIO(png)) as image:
-            image.load()
-            return image.format or "an unknown format"
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError):
-        return "no picture"
+def _instances(domain: Domain, scene: Scene) -> tuple[SkillInstance, ...]:
+    instances = ground_skills(domain.skills, scene.objects)
+    expect(bool(instances), "scene", "scene: expected objects that some skill accepts, got none")
+    return instances

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
-from skillwrapper.errors import PictureError
+from skillwrapper.errors import PictureError, UnknownNameError
 
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
@@ -53,6 +53,19 @@ class Observation:
             return self.pictures[0].sha256
         joined = "|".join(f"{p.camera}:{p.sha256}" for p in self.pictures)
         return hashlib.sha256(joined.encode()).hexdigest()
+
+    def picture(self, camera: str | None = None) -> Picture:
+        """The picture of a camera; None for the first one.
+
+        Raises:
+            UnknownNameError: if there is no such camera.
+        """
+        by_camera = {picture.camera: picture for picture in self.pictures}
+        if camera is None:
+            return self.pictures[0]
+        if camera not in by_camera:
+            raise UnknownNameError("camera", camera, by_camera)
+        return by_camera[camera]
 
 
 def encode_png(image: Image.Image) -> bytes:

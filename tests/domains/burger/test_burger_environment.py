@@ -10,8 +10,9 @@ from skillwrapper.domains.burger.style import CHALK
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.errors import RobotError
 from skillwrapper.symbols.predicates import Atom, all_groundings
-from skillwrapper.world import EnumerableEnvironment, SkillInstance
-from skillwrapper.world.conformance_states import check_enumerable_environment
+from skillwrapper.world import Enumerable, SkillInstance, Truthful
+from skillwrapper.world.capabilities import supports
+from skillwrapper.world.conformance import check_environment
 
 PICK = SkillInstance("Pick", ("robot", "patty"))
 
@@ -24,8 +25,9 @@ def kitchen() -> BurgerEnvironment:
 
 
 def test_conforms() -> None:
-    assert isinstance(BurgerEnvironment(), EnumerableEnvironment)
-    check_enumerable_environment(BurgerEnvironment, steps=20, sample=3)
+    assert supports(BurgerEnvironment(), Enumerable)
+    assert supports(BurgerEnvironment(), Truthful)
+    check_environment(BurgerEnvironment, steps=20, sample=3)
 
 
 def test_skills_are_run_and_failures_explained(kitchen: BurgerEnvironment) -> None:

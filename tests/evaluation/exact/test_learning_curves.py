@@ -14,6 +14,7 @@ from skillwrapper.cli import verification
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.evaluation.exact.learning_curves import (
     EXACT_CURVE,
     Stage,
@@ -67,7 +68,7 @@ def test_the_curve_of_a_run_is_kept_and_shown(
     learn(config, tmp_path / "run")
     folder = RunFolder.open(tmp_path / "run")
     assert "Exact truth" not in render_report(folder)
-    monkeypatch.setattr(verification, "make_environment", lambda name: FirstStates())
+    monkeypatch.setattr(DomainPackage, "make_environment", lambda package: FirstStates())
     output = Console(file=io.StringIO(), width=120)
 
     learned = LearnedRun.read(folder)

@@ -21,7 +21,7 @@ from skillwrapper.world.skills import SkillInstance
 
 
 class BurgerEnvironment:
-    """A robot that makes burgers (``EnumerableEnvironment``).
+    """A robot that makes burgers (enumerable, truthful, replayable).
 
     The seed of ``reset`` chooses the layout of the picture: where stations, tables and robot stand
     and which item starts on which table. The state at the start is always the standard one.
@@ -30,6 +30,8 @@ class BurgerEnvironment:
         style: how the pictures are drawn.
         domain: of ``domain.yaml``; None to read it.
     """
+
+    replayable = True
 
     def __init__(self, style: Style = CLASSIC, *, domain: Domain | None = None) -> None:
         self._domain = domain or load_domain(Path(__file__).with_name("domain.yaml"))

@@ -18,7 +18,7 @@ from pathlib import Path
 import yaml
 
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import ConfigurationError, RunFolderError
+from skillwrapper.errors import RunFolderError
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
 from skillwrapper.evaluation.benchmark.experiments import Experiment
 from skillwrapper.evaluation.benchmark.origins import Origin
@@ -28,7 +28,7 @@ from skillwrapper.files.json_documents import read_lines
 from skillwrapper.files.writing import append_line, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.runs.provenance import provenance
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, require
 
 _EXPERIMENT = "experiment.yaml"
 _RUNS = "runs.jsonl"
@@ -168,16 +168,13 @@ class ExperimentFolder:
                 )
 
 
-def enumerable_environment(domain: str) -> EnumerableEnvironment:
+def enumerable_environment(domain: str) -> Enumerable:
     """A new environment of a domain that can list its states.
 
     Raises:
         ConfigurationError: if it cannot.
     """
-    environment = find_domain(domain).make_environment()
-    if not isinstance(environment, EnumerableEnvironment):
-        raise ConfigurationError(f"{domain}: its states cannot be listed, as experiments need")
-    return environment
+    return require(find_domain(domain).make_environment(), Enumerable, "an experiment")
 
 
 def _choose(experiment: Experiment, domain: str) -> ProblemSet:

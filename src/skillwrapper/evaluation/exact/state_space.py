@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 from skillwrapper.world.skills import SkillInstance, ground_skills
 
 
@@ -33,7 +33,7 @@ class StateSpace:
     following: NDArray[np.intp]
 
     @classmethod
-    def of(cls, environment: EnumerableEnvironment) -> StateSpace:
+    def of(cls, environment: Enumerable) -> StateSpace:
         """Run every skill instance in every state that the standard start leads to."""
         domain = environment.domain
         states = tuple(environment.reachable_states())

@@ -16,7 +16,7 @@ from skillwrapper.files.writing import write_atomically
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.symbols import Predicate
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, look_at
 from skillwrapper.world.observation import Observation
 
 TRUTH_LAYOUT: Final = 999_999_937
@@ -41,7 +41,7 @@ class StateTruth:
 
     def __init__(
         self,
-        environment: EnumerableEnvironment,
+        environment: Enumerable,
         folder: Path | None = None,
         layout: int = TRUTH_LAYOUT,
         sight: TruthSource | None = None,
@@ -68,7 +68,7 @@ class StateTruth:
 
     @cached_property
     def _pictures(self) -> tuple[Observation, ...]:
-        return tuple(self.environment.observe_state(state) for state in self.space.states)
+        return look_at(self.environment, self.space.states)
 
     def _find(self, atoms: AtomSpace, predicate: Predicate) -> Labels | None:
         """Labels that are known already (states, groundings)."""

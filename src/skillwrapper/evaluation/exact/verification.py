@@ -17,7 +17,7 @@ from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.exact.verdicts import Verdicts, Violation, judge
 from skillwrapper.grounding import GroundModel, Labels
 from skillwrapper.symbols.model import AbstractModel
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, look_at
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.skills import SkillInstance
 
@@ -117,7 +117,7 @@ class Verification:
 
 
 def verify(
-    environment: EnumerableEnvironment, model: AbstractModel, labeller: Labeller, *, seed: int = 0
+    environment: Enumerable, model: AbstractModel, labeller: Labeller, *, seed: int = 0
 ) -> Verification:
     """Render every reachable state, read it, and compare predictions with what happens.
 
@@ -130,13 +130,13 @@ def verify(
     started = time.monotonic()
     environment.reset(seed=seed)
     space = StateSpace.of(environment)
-    labels = labeller([environment.observe_state(state) for state in space.states])
+    labels = labeller(look_at(environment, space.states))
     found = verify_labels(environment, space, model, labels)
     return replace(found, seconds=time.monotonic() - started)
 
 
 def verify_labels(
-    environment: EnumerableEnvironment, space: StateSpace, model: AbstractModel, labels: Labels
+    environment: Enumerable, space: StateSpace, model: AbstractModel, labels: Labels
 ) -> Verification:
     """The same with labels that are known already.
 
@@ -162,7 +162,7 @@ def verify_labels(
 def _summary(
     predictions: Predictions,
     verdicts: Verdicts,
-    environment: EnumerableEnvironment,
+    environment: Enumerable,
     started: float,
 ) -> Verification:
     space = predictions.space
@@ -204,15 +204,17 @@ def _ratio(part: NDArray[Any], whole: NDArray[Any]) -> float:
 
 
 def _counterexample(
-    space: StateSpace, violation: Violation, environment: EnumerableEnvironment
+    space: StateSpace, violation: Violation, environment: Enumerable
 ) -> Counterexample:
     following = int(space.following[violation.state, violation.instance])
+    states = space.states[violation.state], space.states[following]
+    before, after = look_at(environment, states)
     return Counterexample(
         verdict=violation.verdict,
         reason=violation.reason,
         path=space.path_to(violation.state),
         instance=space.instances[violation.instance],
         difference=violation.difference,
-        before=environment.observe_state(space.states[violation.state]),
-        after=environment.observe_state(space.states[following]),
+        before=before,
+        after=after,
     )

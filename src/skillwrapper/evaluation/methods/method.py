@@ -24,7 +24,7 @@ from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.settings import ModelSettings, RunSettings
 from skillwrapper.symbols import AbstractModel
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 from skillwrapper.world.episode import Episode
 
 
@@ -88,7 +88,7 @@ class Bench:
     settings: CellSettings
     folder: Path
     source: Path | None
-    environment: EnumerableEnvironment
+    environment: Enumerable
     package: DomainPackage
     truth: StateTruth
 

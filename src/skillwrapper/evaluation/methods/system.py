@@ -25,7 +25,7 @@ from skillwrapper.learning.settings import LearningSettings
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.transitions.recorded import RecordedTransitions
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, Truthful, require
 from skillwrapper.world.episode import Episode
 from skillwrapper.world.observation import Observation
 
@@ -42,9 +42,9 @@ class RecordedStates:
     reader: StateReader
     states: dict[str, Any] = field(default_factory=dict)
 
-    def add(self, environment: EnumerableEnvironment, episode: Episode) -> None:
+    def add(self, environment: Enumerable, episode: Episode) -> None:
         """Find out the states of an episode by running it again, without pictures."""
-        environment.reset(seed=episode.seed)
+        environment.reset(seed=episode.seed, scene=episode.scene.name)
         state = environment.get_state()
         for transition in episode.transitions:
             self.states[transition.before.key] = state
@@ -80,7 +80,7 @@ class SystemMethod:
         """Learn from the recorded episodes, one after the other."""
         if bench.source is None:
             raise InternalError(f"{self.name}: expected a source cell, got none; please report it")
-        reader = system_reader(bench.environment)
+        reader = system_reader(require(bench.environment, Truthful, f"the method {self.name}"))
         episodes = read_episodes(RunFolder.open(bench.source / "run"))
         recorded = RecordedStates(reader)
         done = RecordedTransitions(bench.environment.domain)

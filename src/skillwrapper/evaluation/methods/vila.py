@@ -15,7 +15,7 @@ from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.model_sessions import open_session
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -46,7 +46,7 @@ class VilaSolver:
         calls: how many questions were put to models so far.
     """
 
-    environment: EnumerableEnvironment
+    environment: Enumerable
     actor: Actor
     actions: int
     calls: Callable[[], int] = lambda: 0
@@ -80,8 +80,8 @@ class VilaSolver:
 
     def _act(self, problem: Problem, goal: Any) -> _Run:
         start = self.environment.state_from_data(problem.initial)
-        seen = self.environment.set_state(start, seed=problem.layout)
-        picture = self.environment.observe_state(goal)
+        picture = self.environment.set_state(goal, seed=problem.layout)
+        seen = self.environment.set_state(start)
         domain = self.environment.domain
         objects = self.environment.scene.objects
         history: tuple[tuple[SkillInstance, bool], ...] = ()

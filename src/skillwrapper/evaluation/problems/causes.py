@@ -11,7 +11,7 @@ import numpy as np
 from skillwrapper.evaluation.problems.readers import StateReader
 from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
 from skillwrapper.planning.result import SkillPlan
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 
 
 class Cause(StrEnum):
@@ -64,7 +64,7 @@ class Diagnostician:
         truth: labels of the model's predicates without error.
     """
 
-    environment: EnumerableEnvironment
+    environment: Enumerable
     model: GroundModel
     truth: StateReader
 

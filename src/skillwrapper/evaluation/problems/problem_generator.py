@@ -20,7 +20,7 @@ from skillwrapper.evaluation.problems.problems import (
     ProblemClass,
     ProblemSet,
 )
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 
 _TRIES = 200
 _LENGTHS = {
@@ -44,7 +44,7 @@ class ProblemGenerator:
         seed: decides every choice.
     """
 
-    environment: EnumerableEnvironment
+    environment: Enumerable
     package: DomainPackage
     seed: int
     _used: Counter[str] = field(default_factory=Counter, init=False)

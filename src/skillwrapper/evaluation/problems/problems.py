@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 
 LONGEST_EASY = 7
 LONGEST_HARD = 15
@@ -121,7 +121,7 @@ class _ProblemFile(BaseModel):
     problems: list[_ProblemEntry] = Field(min_length=1)
 
 
-def read_problems(path: Path, environment: EnumerableEnvironment) -> ProblemSet:
+def read_problems(path: Path, environment: Enumerable) -> ProblemSet:
     """Read a problem file.
 
     Args:

@@ -11,7 +11,7 @@ import numpy as np
 from skillwrapper.grounding import FALSE, TRUE, AtomSpace, Labels
 from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.symbols import Atom
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, Truthful, look_at
 
 
 class StateReader(Protocol):
@@ -31,12 +31,12 @@ class PictureReader:
         source: reads them.
     """
 
-    environment: EnumerableEnvironment
+    environment: Enumerable
     source: TruthSource
 
     def read(self, space: AtomSpace, states: Sequence[Any]) -> Labels:
         """Labels of states (states, atoms)."""
-        return self.source.labels(space, [self.environment.observe_state(s) for s in states])
+        return self.source.labels(space, look_at(self.environment, states))
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,6 @@ class AtomReader:
         return labels
 
 
-def system_reader(environment: EnumerableEnvironment) -> AtomReader:
+def system_reader(environment: Truthful) -> AtomReader:
     """The simulator's own description of its states."""
     return AtomReader(lambda state: (Atom(*pair) for pair in environment.true_atoms(state)))

@@ -19,7 +19,7 @@ from skillwrapper.planning.planner import Planner
 from skillwrapper.planning.problem import PlanningProblem
 from skillwrapper.planning.result import PlanningResult, PlanningStatus, SkillPlan
 from skillwrapper.symbols import AbstractModel
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class ModelSolver:
         calls: how many questions were put to models so far.
     """
 
-    environment: EnumerableEnvironment
+    environment: Enumerable
     space: StateSpace
     model: AbstractModel
     reader: StateReader

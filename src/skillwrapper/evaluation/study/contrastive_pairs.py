@@ -14,8 +14,8 @@ from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.invention.questions import InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import AbstractModel, Atom, Predicate
+from skillwrapper.world.capabilities import Enumerable
 from skillwrapper.world.domain import Domain
-from skillwrapper.world.environment import EnumerableEnvironment
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.skills import parse_skill_instance
 
@@ -61,7 +61,7 @@ class _PairsFile(_Entry):
 
 
 def read_pairs(
-    path: Path, environment: EnumerableEnvironment, expert: AbstractModel
+    path: Path, environment: Enumerable, expert: AbstractModel
 ) -> tuple[ContrastivePair, ...]:
     """Read curated pairs and draw their pictures.
 
@@ -84,7 +84,7 @@ def read_pairs(
 
 @dataclass(frozen=True)
 class _Reader:
-    environment: EnumerableEnvironment
+    environment: Enumerable
     expert: AbstractModel
     where: str
 
@@ -123,7 +123,7 @@ class _Reader:
                 f"{self.where}: expected a {expected} of {instance}, got a {got}"
             )
         before = environment.set_state(state, seed=entry.layout)
-        return Transition(before, instance, succeeded, environment.observe_state(following))
+        return Transition(before, instance, succeeded, environment.set_state(following))
 
     def _predicate(self, name: str) -> Predicate:
         known = self.expert.predicate_by_name

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.study.meaning import (
     Columns,
     Meaning,
@@ -19,7 +18,7 @@ from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.symbols import Atom, Predicate
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.capabilities import Enumerable, look_at, require
 
 _LAYOUT = 424_242
 """Seed of the arrangement in which states are drawn; no run resets to it."""
@@ -47,19 +46,17 @@ class MeaningJudge:
 
     def __init__(self, domain: str, states: int | None, seed: int) -> None:
         package = find_domain(domain)
-        environment = package.make_environment()
-        if not isinstance(environment, EnumerableEnvironment):
-            raise ConfigurationError(f"{domain}: its states cannot be listed")
+        environment = require(package.make_environment(), Enumerable, "judging meanings")
         expert = package.expert
         chosen = list(environment.reachable_states())
         if states is not None and states < len(chosen):
             chosen = random.Random(f"invention study {seed}").sample(chosen, states)
         environment.reset(seed=_LAYOUT)
-        self.environment: EnumerableEnvironment = environment
+        self.environment = environment
         self.expert = expert.model
         self.states: tuple[Any, ...] = tuple(chosen)
         self._true = [frozenset(expert.atoms(state)) for state in chosen]
-        self._pictures = [environment.observe_state(state) for state in chosen]
+        self._pictures = look_at(environment, chosen)
         self._assistant = truthful_assistant()
         self._read: dict[tuple[Predicate, str], Columns] = {}
 

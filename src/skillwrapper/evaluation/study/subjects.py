@@ -20,8 +20,9 @@ from skillwrapper.runs.folder import CONFIG, RunFolder
 from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom, Predicate, all_groundings
+from skillwrapper.world.capabilities import Enumerable, require
 from skillwrapper.world.domain import Domain
-from skillwrapper.world.environment import EnumerableEnvironment
+from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation, load_picture
 from skillwrapper.world.types import Object
 
@@ -98,7 +99,7 @@ class SimulatedSubject(Subject):
         seed: int,
     ) -> None:
         self._name, self._truth, self._package = name, truth, find_domain(name)
-        self._usual = _enumerable(self._package.make_environment(), name)
+        self._usual = _enumerable(self._package.make_environment())
         super().__init__(self._usual.domain, predicates, origin)
         states = list(self._usual.reachable_states())
         chance = random.Random(f"perception study {seed}")
@@ -113,7 +114,7 @@ class SimulatedSubject(Subject):
         """The sampled states, drawn under a condition."""
         shown = self._usual
         if condition.drawing:
-            shown = _enumerable(self._package.make_environment(condition.drawing), self._name)
+            shown = _enumerable(self._package.make_environment(condition.drawing))
         pictures, plain = [], []
         for number, state in enumerate(self._states):
             layout = _LAYOUT + (1 + number + 100_000 * self._seed if condition.layouts else 0)
@@ -223,9 +224,5 @@ def _set_of(atoms: Callable[[Any], Any]) -> Callable[[Any], set[Atom]]:
     return lambda state: set(atoms(state))
 
 
-def _enumerable(environment: object, name: str) -> EnumerableEnvironment:
-    if not isinstance(environment, EnumerableEnvironment):
-        raise ConfigurationError(
-            f"{name}: its states cannot be listed; give pictures and their truth with --labels"
-        )
-    return environment
+def _enumerable(environment: Environment) -> Enumerable:
+    return require(environment, Enumerable, "a study without --labels")
