@@ -12,6 +12,10 @@ class ExplorationSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
+    explorer: str = Field(
+        default="paper",
+        description="who chooses what to try next: paper, as published; or random",
+    )
     budget: int = Field(
         default=15,
         ge=1,
