@@ -13,6 +13,7 @@ from skillwrapper.cli import (
     learning,
     model_calls,
     models,
+    operators,
     planning,
     problems,
     reporting,
@@ -34,6 +35,7 @@ app = typer.Typer(
 _GROUPS = (
     learning,
     models,
+    operators,
     planning,
     domains,
     problems,

@@ -58,15 +58,22 @@ def read_records(path: Path, model: type[Model]) -> list[Model]:
     Raises:
         FileError: if another line is something else; names the file and the line.
     """
-    records = []
-    for number, line in enumerate(_whole_lines(path), start=1):
-        try:
-            records.append(model.model_validate_json(line))
-        except ValidationError as error:
-            if _line_of_syntax(error) is not None:
-                raise FileError(f"{path}:{number}: expected a line of JSON") from error
-            raise FileError(f"{path}:{number}: {first_mistake(error, model).text}") from error
-    return records
+    lines = enumerate(_whole_lines(path), start=1)
+    return [parse_record(line, model, f"{path}:{number}") for number, line in lines]
+
+
+def parse_record(line: str | bytes, model: type[Model], where: str) -> Model:
+    """A line of JSON as a pydantic model.
+
+    Raises:
+        FileError: if it is something else; names the place.
+    """
+    try:
+        return model.model_validate_json(line)
+    except ValidationError as error:
+        if _line_of_syntax(error) is not None:
+            raise FileError(f"{where}: expected a line of JSON") from error
+        raise FileError(f"{where}: {first_mistake(error, model).text}") from error
 
 
 def read_lines(path: Path) -> list[dict[str, Any]]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 from skillwrapper.errors import UnknownNameError
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.labelled import LabelledTransitions
 
 
@@ -36,3 +37,29 @@ def make_learner(settings: LearningSettings) -> Learner:
     if settings.learner not in LEARNERS:
         raise UnknownNameError("learner", settings.learner, LEARNERS)
     return LEARNERS[settings.learner](settings)
+
+
+def learn_operators(
+    transitions: LabelledTransitions,
+    vocabulary: Sequence[Predicate] | None = None,
+    learner: str = "faithful",
+    settings: LearningSettings | None = None,
+) -> Fit:
+    """Learn operators from labelled transitions, without pictures and without a model.
+
+    Args:
+        transitions: as ``label_entries`` or ``read_transitions`` makes them.
+        vocabulary: the predicates to learn with; None for all that are labelled.
+        learner: name of the learner.
+        settings: of the learner; None for the defaults.
+
+    Returns:
+        The operators (``.model``) with what they leave inconsistent; see also ``certify`` and
+        ``find_untested``.
+
+    Raises:
+        UnknownNameError: if there is no such learner, or a predicate is not labelled.
+    """
+    chosen = (settings or LearningSettings()).model_copy(update={"learner": learner})
+    words = transitions.predicates if vocabulary is None else vocabulary
+    return make_learner(chosen).learn(transitions.with_predicates(words))

@@ -15,10 +15,8 @@ from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.folder import RunFolder
-from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.describe import describe_model
 from skillwrapper.symbols.files import model_to_json, predicates_to_yaml
-from skillwrapper.symbols.pddl import print_domain
 from skillwrapper.transitions.recorded import RecordedTransitions
 
 
@@ -53,13 +51,6 @@ def write_truth_table(
         for observation, row in zip(observations, labels, strict=True):
             writer.writerow([observation.key, *("?" if v < 0 else int(v) for v in row)])
     write_atomically(path, text.getvalue())
-
-
-def write_learned_model(folder: RunFolder, model: AbstractModel) -> None:
-    """The three files of ``model/``."""
-    write_atomically(folder.model / "predicates.yaml", predicates_to_yaml(model.predicates))
-    write_atomically(folder.model / "model.json", model_to_json(model))
-    write_atomically(folder.model / "domain.pddl", print_domain(model))
 
 
 def describe_inconsistency(

@@ -35,7 +35,6 @@ from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.artifacts import (
     describe_inconsistency,
     write_iteration,
-    write_learned_model,
     write_truth_table,
 )
 from skillwrapper.runs.events import EventKind, RunEvent, Watcher
@@ -43,6 +42,7 @@ from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.recorder import EpisodeRecorder
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Predicate
+from skillwrapper.symbols.model_folder import write_model
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.world.environment import Environment
@@ -149,7 +149,7 @@ class LearningRun:
             result = self._iterate()
         if result is None:
             result = self._result()
-        write_learned_model(self._folder, result.fit.model)
+        write_model(self._folder.model, result.fit.model)
         write_json(self._folder.path / "result.json", result.to_json())
         return result
 

@@ -11,6 +11,7 @@ from skillwrapper.errors import SymbolError
 from skillwrapper.world.types import Object
 
 _NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_-]*$")
+_ATOM = re.compile(r"\s*([^\s(),]+)\s*(?:\(([^()]*)\)\s*)?")
 
 
 @dataclass(frozen=True, order=True)
@@ -96,6 +97,20 @@ class Literal:
     def substitute(self, binding: Mapping[str, str]) -> Literal:
         """The literal with every term replaced that the binding names."""
         return Literal(self.atom.substitute(binding), self.positive)
+
+
+def parse_atom(text: str) -> Atom:
+    """The atom that its ``str`` describes, e.g. ``holding(robot, patty)``; ``dark`` is ``dark()``.
+
+    Raises:
+        SymbolError: if the text is no name with terms in parentheses.
+    """
+    match = _ATOM.fullmatch(text)
+    terms = (match[2] or "").split(",") if match else []
+    names = tuple(term.strip() for term in terms)
+    if match is None or (len(names) > 1 and "" in names):
+        raise SymbolError(f"expected an atom like 'holding(robot, patty)', got '{text}'")
+    return Atom(match[1], tuple(name for name in names if name))
 
 
 def all_groundings(predicates: Iterable[Predicate], objects: Sequence[Object]) -> tuple[Atom, ...]:

@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.errors import UnknownNameError
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.executions import Executions
@@ -145,11 +146,20 @@ class LabelledTransitions:
         return sum(len(scene.executions) for scene in self.scenes)
 
     def with_predicates(self, predicates: Iterable[Predicate]) -> LabelledTransitions:
-        """The same with a part of the vocabulary."""
+        """The same with a part of the vocabulary.
+
+        Raises:
+            UnknownNameError: if a predicate is not labelled, with this meaning.
+        """
         chosen = tuple(predicates)
         if chosen == self.predicates:
             return self
-        places = [self.predicates.index(p) for p in chosen]
+        known = {p: place for place, p in enumerate(self.predicates)}
+        for predicate in chosen:
+            if predicate not in known:
+                names = (p.signature for p in self.predicates)
+                raise UnknownNameError("labelled predicate", predicate.signature, names)
+        places = [known[p] for p in chosen]
         scenes = (
             SceneTransitions(s.executions, tuple(s.labels[i] for i in places)) for s in self.scenes
         )

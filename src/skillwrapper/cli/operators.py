@@ -1,0 +1,84 @@
+"""``skillwrapper learn-operators``: operators from labelled transitions, without pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from skillwrapper.cli.output import JsonFlag, print_json, results
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.files.writing import write_json
+from skillwrapper.learning.certification import Certificate, certify
+from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.learner import learn_operators
+from skillwrapper.learning.untested import find_untested
+from skillwrapper.symbols.describe import describe_operator
+from skillwrapper.symbols.files import read_predicates
+from skillwrapper.symbols.model_folder import write_model
+from skillwrapper.symbols.operators import Condition
+from skillwrapper.transitions.files import read_transitions
+
+_Untested = dict[str, frozenset[Condition]]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command(name="learn-operators")(learn_from_file)
+
+
+def learn_from_file(
+    transitions: Annotated[
+        Path, typer.Argument(help="JSON lines, one transition a line; see docs/operators.md.")
+    ],
+    domain: Annotated[
+        str, typer.Option(help="The domain: its domain.yaml, its folder or its name.")
+    ],
+    out: Annotated[Path, typer.Option(help="Folder for domain.pddl and the other files.")],
+    predicates: Annotated[
+        Path | None,
+        typer.Option(help="predicates.yaml with types and meanings; default: from the atoms."),
+    ] = None,
+    learner: Annotated[str, typer.Option(help="Who learns.")] = "faithful",
+    as_json: JsonFlag = False,
+) -> None:
+    """Learn operators from transitions whose labels are known; no picture, no model."""
+    declared = find_domain(domain).domain
+    vocabulary = read_predicates(predicates, declared) if predicates is not None else None
+    fit = learn_operators(read_transitions(transitions, declared, vocabulary), learner=learner)
+    certificate, untested = certify(fit), find_untested(fit)
+    write_model(out, fit.model)
+    write_json(out / "certificate.json", _checked(certificate, untested))
+    if as_json:
+        print_json({**_figures(fit), "certificate": _checked(certificate, untested)})
+    else:
+        _print(fit, certificate, untested, out)
+
+
+def _figures(fit: Fit) -> dict[str, Any]:
+    return {
+        "predicates": [p.signature for p in fit.predicates],
+        "operators": [o.operator.name for o in fit.operators],
+        "inconsistencies": len(fit.inconsistencies),
+    }
+
+
+def _checked(certificate: Certificate, untested: _Untested) -> dict[str, Any]:
+    conditions = {name: sorted(map(str, found)) for name, found in untested.items()}
+    return {**certificate.to_json(), "untested": conditions}
+
+
+def _print(fit: Fit, certificate: Certificate, untested: _Untested, out: Path) -> None:
+    console = results()
+    for learned in fit.operators:
+        name = learned.operator.name
+        console.print(describe_operator(learned.operator, untested[name]), markup=False)
+        console.print("")
+    console.print(
+        f"{certificate.transitions} transitions, {certificate.decided} decided, violations: "
+        f"{certificate.count('lemma1')} of Lemma 1, {certificate.count('theorem1')} of Theorem 1; "
+        f"{len(fit.inconsistencies)} inconsistencies",
+        markup=False,
+    )
+    console.print(f"written: {out / 'domain.pddl'} and what belongs to it", markup=False)
