@@ -10,15 +10,21 @@ from typing import Annotated, Any
 
 import typer
 from rich.table import Table
+from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.cli.setting_options import BaseUrlOption, PromptsOption
+from skillwrapper.cli.setting_options import (
+    BaseUrlOption,
+    PromptsOption,
+    option,
+    options_given,
+    run_settings,
+)
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FAULTS, FaultPlan
 from skillwrapper.runs.doctor import examine
 from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, CallTotals, StoredCall
@@ -65,19 +71,29 @@ def calls(
 
 
 def doctor(
+    context: typer.Context,
     model: Annotated[str, typer.Option(help="embedded, openai:NAME or recorded:DIR.")],
+    domain: Annotated[
+        str | None, typer.Option(help="Domain whose pictures are shown; default: a bundled one.")
+    ] = None,
     base_url: BaseUrlOption = None,
     prompts: PromptsOption = None,
+    timeout: Annotated[float | None, option("timeout")] = None,
+    temperature: Annotated[float | None, option("temperature")] = None,
+    max_output_tokens: Annotated[int | None, option("max_output_tokens")] = None,
+    reasoning_effort: Annotated[str | None, option("reasoning_effort")] = None,
+    image_size: Annotated[int | None, option("image_size")] = None,
     as_json: JsonFlag = False,
 ) -> None:
-    """Try a model with a few calls: key, endpoint, pictures, and whether its replies are of use."""
+    """Try a model with a few calls: does it answer, see what is shown, and say what can be read."""
+    options = options_given({**context.params, "domain": domain or "bundled"})
+    settings = run_settings(None, options, ()).model
     findings = []
-    for finding in examine(ModelSettings(name=model, base_url=base_url, prompts=prompts)):
+    for finding in examine(settings, domain):
         findings.append(finding)
         if not as_json:
-            mark = "[green]ok[/]   " if finding.passed else "[red]wrong[/]"
-            results().print(f"{mark} {finding.check}: ", end="")
-            results().print(finding.detail, markup=False)
+            mark = ("ok    ", "green") if finding.passed else ("wrong ", "red")
+            results().print(Text.assemble(mark, f"{finding.check}: {finding.detail}"))
     healthy = all(finding.passed for finding in findings)
     if as_json:
         print_json({"healthy": healthy, "findings": [asdict(f) for f in findings]})

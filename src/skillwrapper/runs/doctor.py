@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import closing
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import ProviderError, UserError
+from skillwrapper.domains.discovery import bundled_domains, find_domain
+from skillwrapper.domains.package import DomainPackage
+from skillwrapper.errors import ConfigurationError, ProviderError, UserError
 from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.invention.questions import InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationQuestion
 from skillwrapper.runs.models import open_model, open_prompts
 from skillwrapper.runs.settings import ModelSettings
-from skillwrapper.symbols import Predicate
+from skillwrapper.runs.specimens import Specimen, read_specimen
+from skillwrapper.symbols import Atom
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
 from skillwrapper.vlm.settings import AskingSettings
-from skillwrapper.world.domain import Domain
-from skillwrapper.world.episode import Transition
-from skillwrapper.world.observation import Observation
-from skillwrapper.world.skills import SkillInstance
-from skillwrapper.world.types import Object
 
 _ATTEMPTS = RetryPolicy(attempts=3, first_wait=0.5, longest_wait=2.0, longest_asked_wait=10.0)
 _HOW = AskingSettings(reasks=0, unusable_reasks=1)
+_GOOD = 0.75
+"""The share of answers that must be right."""
 _CHOOSE_ANOTHER = "reword its template (learn --prompts), or choose another model"
 
 
@@ -46,23 +44,17 @@ class Finding:
     detail: str
 
 
-@dataclass(frozen=True)
-class _Specimen:
-    """A picture of the bundled kitchen, and two skills that were tried in it."""
-
-    domain: Domain
-    objects: tuple[Object, ...]
-    start: Observation
-    success: Transition
-    failure: Transition
-
-
-def examine(settings: ModelSettings) -> Iterator[Finding]:
+def examine(settings: ModelSettings, domain: str | None = None) -> Iterator[Finding]:
     """Try a model; stops at the first check that makes the others pointless.
 
     Args:
         settings: which model, where, and with which templates.
+        domain: whose pictures it is tried on; None for a bundled one's.
+
+    Raises:
+        UserError: if the domain cannot be read, or brings no pictures for this.
     """
+    specimen = read_specimen(find_domain(domain) if domain else _bundled())
     try:
         model = open_model(settings.name, settings, 0)
     except (ProviderError, UserError) as error:
@@ -77,7 +69,6 @@ def examine(settings: ModelSettings) -> Iterator[Finding]:
     if settings.prompts:
         yield Finding("prompt templates", True, f"those in {settings.prompts} can be used")
     patient = RetryingModel(model, _ATTEMPTS)
-    specimen = _specimen()
     assistant = Assistant(ModelSet.of(patient), prompts, _HOW)
     checks: tuple[tuple[str, Callable[[], Finding]], ...] = (
         ("endpoint", lambda: _answers(patient)),
@@ -94,21 +85,29 @@ def examine(settings: ModelSettings) -> Iterator[Finding]:
             return
 
 
+def _bundled() -> DomainPackage:
+    """A bundled domain that brings pictures for trying out a model."""
+    found = next((package for package in bundled_domains() if package.has("doctor")), None)
+    if found is None:
+        raise ConfigurationError("no bundled domain brings pictures for this; name a domain")
+    return found
+
+
 def _answers(model: VisionLanguageModel) -> Finding:
     reply = model.complete(ModelRequest(Role.ACT, "", "Reply with the word: ready"))
     return Finding("endpoint", True, f"it answers, in {reply.usage.seconds:.1f} s")
 
 
-def _accepts_pictures(model: VisionLanguageModel, specimen: _Specimen) -> Finding:
+def _accepts_pictures(model: VisionLanguageModel, specimen: Specimen) -> Finding:
     prompt = "Say in one sentence what the picture shows."
-    model.complete(ModelRequest(Role.ACT, "", prompt, specimen.start.pictures))
+    model.complete(ModelRequest(Role.ACT, "", prompt, specimen.success.before.pictures))
     return Finding("pictures", True, "it accepts a picture")
 
 
-def _proposes(assistant: Assistant, specimen: _Specimen) -> Finding:
+def _proposes(assistant: Assistant, specimen: Specimen) -> Finding:
     skills = tuple(skill.name for skill in specimen.domain.skills)
     question = ProposalQuestion(
-        specimen.domain, specimen.objects, specimen.start, (), (), (), skills, 2, 4
+        specimen.domain, specimen.objects, specimen.success.before, (), (), (), skills, 2, 4
     )
     answer = assistant.propose_sequences(question)
     if answer.sequences:
@@ -117,7 +116,7 @@ def _proposes(assistant: Assistant, specimen: _Specimen) -> Finding:
     return _of_no_use("proposing sequences", answer.unusable)
 
 
-def _invents(assistant: Assistant, specimen: _Specimen) -> Finding:
+def _invents(assistant: Assistant, specimen: Specimen) -> Finding:
     skill = specimen.domain.skill_by_name[specimen.success.instance.skill]
     question = InventionQuestion(
         domain=specimen.domain,
@@ -140,41 +139,58 @@ def _invents(assistant: Assistant, specimen: _Specimen) -> Finding:
     return _of_no_use("inventing predicates", answer.unusable)
 
 
-def _reads(assistant: Assistant, specimen: _Specimen) -> Finding:
-    skill = specimen.domain.skill_by_name[specimen.success.instance.skill]
-    types = tuple(parameter.type for parameter in skill.parameters)
-    holds = Predicate("holding", types, "the robot holds the object in its gripper.")
+def _reads(assistant: Assistant, specimen: Specimen) -> Finding:
     pictures = (specimen.success.before, specimen.success.after)
     answers = assistant.evaluate(
-        [EvaluationQuestion(specimen.domain, specimen.objects, p, (holds,)) for p in pictures]
+        [
+            EvaluationQuestion(specimen.domain, specimen.objects, picture, specimen.predicates)
+            for picture in pictures
+        ]
     )
-    labels = [label for answer in answers for label in answer.labels.values()]
-    known = [label for label in labels if label is not None]
-    if not known:
+    labels = [answer.labels for answer in answers]
+    if not any(label is not None for picture in labels for label in picture.values()):
         return _of_no_use("reading pictures", ("no label in the whole reply",))
-    terms = specimen.success.instance.arguments
-    of_picked = [v for answer in answers for a, v in answer.labels.items() if a.terms == terms]
-    right = of_picked == [False, True]
-    seen = "and saw what was picked" if right else "but did not see that something was picked"
-    return Finding("reading pictures", True, f"{len(known)} of {len(labels)} labels, {seen}")
+    return _judged(labels, specimen.truth)
+
+
+def _judged(
+    said: Sequence[Mapping[Atom, bool | None]], truth: Sequence[Mapping[Atom, bool]]
+) -> Finding:
+    """Compare labels with the truth: what is true, what is false, and what has changed.
+
+    Each of the three counts for itself, so that neither a model that says the same of everything
+    nor one that guesses without looking passes, however rare true atoms are.
+    """
+    asked = [(labels[atom], true) for labels, known in zip(said, truth, strict=True)
+             for atom, true in known.items()]  # fmt: skip
+    before, after = truth
+    changed = [atom for atom in before if before[atom] != after[atom]]
+    parts = (
+        ("true", [label is True for label, true in asked if true]),
+        ("false", [label is False for label, true in asked if not true]),
+        ("changed", [
+            all(labels[atom] == known[atom] for labels, known in zip(said, truth, strict=True))
+            for atom in changed
+        ]),
+    )  # fmt: skip
+    figures = ", ".join(f"{sum(right)} of {len(right)} {name}" for name, right in parts)
+    if all(sum(right) >= _GOOD * len(right) for _, right in parts):
+        return Finding("reading pictures", True, f"right about {figures}")
+    detail = f"right about {figures} only; {_why(said, changed)}; choose another model"
+    return Finding("reading pictures", False, detail)
+
+
+def _why(said: Sequence[Mapping[Atom, bool | None]], changed: Sequence[Atom]) -> str:
+    values = {label for labels in said for label in labels.values()}
+    if len(values) == 1:
+        return f"it says {str(values.pop()).lower()} of everything, whatever is shown and asked"
+    if any(len(set(labels.values())) == 1 for labels in said):
+        return "it says the same of all that is asked about a picture"
+    if all(said[0][atom] == said[1][atom] for atom in changed):
+        return "it says the same of different pictures: it does not seem to see them"
+    return "it does not read these pictures well enough"
 
 
 def _of_no_use(check: str, unusable: tuple[str, ...]) -> Finding:
     why = unusable[0] if unusable else "nothing in it was of use"
     return Finding(check, False, f"the replies cannot be used ({why}); {_CHOOSE_ANOTHER}")
-
-
-def _specimen() -> _Specimen:
-    picked = SkillInstance("Pick", ("robot", "patty"))
-    in_vain = SkillInstance("Pick", ("robot", "lettuce"))
-    with closing(find_domain("burger").make_environment()) as kitchen:
-        start = kitchen.reset(seed=0)
-        first = kitchen.execute(picked)
-        second = kitchen.execute(in_vain)
-        return _Specimen(
-            kitchen.domain,
-            kitchen.scene.objects,
-            start,
-            Transition(start, picked, first.success, first.observation),
-            Transition(first.observation, in_vain, second.success, second.observation),
-        )
