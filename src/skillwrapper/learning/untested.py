@@ -46,7 +46,7 @@ def _untested(
     predictions: Sequence[TablePrediction],
 ) -> frozenset[Condition]:
     operator = learned.operator
-    narrowed = frozenset(_narrowed(domain, signatures, operator))
+    narrowed = frozenset(narrowed_types(domain, signatures, operator))
     left: set[Condition] = {*operator.preconditions, *operator.absences, *narrowed}
     for prediction in predictions:
         indexed = IndexedOperator(operator, prediction.table.space, narrowed)
@@ -80,7 +80,7 @@ def _unfulfilled(learned: LearnedOperator, prediction: TablePrediction) -> Attem
     return attempts_of(table, np.flatnonzero(other))
 
 
-def _narrowed(
+def narrowed_types(
     domain: Domain, signatures: Mapping[str, tuple[str, ...]], operator: Operator
 ) -> tuple[Variable, ...]:
     """The parameters whose types are a condition of their own.

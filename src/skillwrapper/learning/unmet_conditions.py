@@ -1,0 +1,74 @@
+"""Which conditions of an operator are not met where it might be tried, binding by binding."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.grounding import TRUE
+from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.grounding.indexed_operators import IndexedOperator
+from skillwrapper.grounding.joins import find_bindings
+
+_MOST_UNMET = 6
+"""Bindings with more unmet conditions count as ones that cannot apply."""
+
+
+@dataclass(frozen=True, eq=False)
+class UnmetConditions:
+    """Which conditions of an operator are not surely met where it might be tried.
+
+    Attributes:
+        sets: different sets of conditions (sets, conditions).
+        families: different families of them, one set a binding, as places among the sets
+            (families, bindings); places that are not used are -1.
+        family: the family (attempts,) of every attempt; -1 for one that no binding fits.
+    """
+
+    sets: NDArray[np.bool_]
+    families: NDArray[np.intp]
+    family: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, operator: IndexedOperator, attempts: Attempts) -> UnmetConditions:
+        """Look at all bindings that lack not too much."""
+        unmet = [np.zeros((0, len(operator.conditions)), dtype=bool)]
+        attempt = [np.zeros(0, dtype=np.intp)]
+        for bindings in find_bindings(operator, attempts, most_unmet=_MOST_UNMET):
+            unmet.append(bindings.met() != TRUE)
+            attempt.append(bindings.attempt)
+        sets, place = _different(np.vstack(unmet))
+        pairs, _ = _different(np.column_stack([np.concatenate(attempt), place]))
+        family = np.full(len(attempts), -1, dtype=np.intp)
+        members = np.full((len(attempts), 1), -1, dtype=np.intp)
+        if len(pairs):
+            turn = np.arange(len(pairs)) - np.searchsorted(pairs[:, 0], pairs[:, 0])
+            members = np.full((len(attempts), int(turn.max()) + 1), -1, dtype=np.intp)
+            members[pairs[:, 0], turn] = pairs[:, 1]
+        bound = members[:, 0] >= 0
+        families, family[bound] = _different(members[bound])
+        return cls(sets, families, family)
+
+    def excused(self, needed: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Whether some binding would apply (families, hypotheses).
+
+        Args:
+            needed: every hypothesis as the conditions that it needs (hypotheses, conditions).
+        """
+        overlap = self.sets.astype(np.float32) @ needed.T.astype(np.float32)
+        applies = np.vstack([overlap == 0, np.zeros((1, len(needed)), dtype=bool)])
+        found = np.zeros((len(self.families), len(needed)), dtype=bool)
+        for column in self.families.T:
+            found |= applies[column]  # place -1 is the last row, which never applies
+        return found
+
+
+def _different(rows: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
+    """Different rows, sorted, and the place (n,) of every row among them."""
+    if not rows.shape[1]:
+        return rows[:1], np.zeros(len(rows), dtype=np.intp)
+    found, place = np.unique(rows, axis=0, return_inverse=True)
+    return found, place.ravel()

@@ -1,0 +1,227 @@
+"""Version spaces: which of an operator's conditions are needed, as far as the data tell.
+
+The learned precondition is the most specific one: all that held before every transition of the
+cluster. The true one is a part of it. Every part is a hypothesis; a transition outside the cluster,
+where the operator must not apply, speaks against those that would have let it. What is left,
+weighed by how likely conditions of their kind are needed, says what a try would tell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.grounding import AtomSpace
+from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.grounding.indexed_operators import IndexedOperator
+from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.learning.operators import LearnedOperator
+from skillwrapper.learning.predictions import attempts_of
+from skillwrapper.learning.unmet_conditions import UnmetConditions
+from skillwrapper.learning.untested import narrowed_types
+from skillwrapper.symbols import Absence, Literal, Operator, Variable
+from skillwrapper.symbols.operators import Condition
+
+_ENUMERATED = 12
+"""All parts of so many conditions are hypotheses; of more, some are drawn."""
+_DRAWN = 4096
+_REPETITIONS = 3
+"""Equal counterexamples count so often at most."""
+
+
+@dataclass(frozen=True)
+class Prior:
+    """How likely a condition is needed, before anything was tried.
+
+    Attributes:
+        positive: a literal that must hold.
+        negative: a literal that must not.
+        absence: that no object stands in a relation.
+        types: that an object is of narrower types than the skill asks for.
+        sibling: what a condition passes on, of its probability, to the same condition of another
+            operator of the skill.
+        missing: what is left for every other operator of the skill that lacks the condition.
+    """
+
+    positive: float = 0.5
+    negative: float = 0.25
+    absence: float = 0.35
+    types: float = 0.15
+    sibling: float = 0.95
+    missing: float = 0.6
+
+    def of(self, condition: Condition) -> float:
+        """The probability by the kind of a condition."""
+        match condition:
+            case Literal():
+                return self.positive if condition.positive else self.negative
+            case Absence():
+                return self.absence
+            case Variable():
+                return self.types
+
+
+@dataclass(frozen=True, eq=False)
+class VersionSpace:
+    """What the precondition of an operator may be.
+
+    Attributes:
+        operator: the operator; its precondition is the most specific one.
+        conditions: its conditions, in a fixed order.
+        narrowed: the parameters whose types are among them.
+        needed: every hypothesis as the conditions that it needs (hypotheses, conditions).
+        consistent: which hypotheses (hypotheses,) no counterexample speaks against.
+        weights: the probability (hypotheses,) of each.
+    """
+
+    operator: Operator
+    conditions: tuple[Condition, ...]
+    narrowed: frozenset[Variable]
+    needed: NDArray[np.bool_]
+    consistent: NDArray[np.bool_]
+    weights: NDArray[np.float64]
+
+    @cached_property
+    def probability(self) -> dict[Condition, float]:
+        """How likely each condition is needed."""
+        return dict(zip(self.conditions, (self.weights @ self.needed).tolist(), strict=True))
+
+    @cached_property
+    def proven(self) -> frozenset[Condition]:
+        """The conditions without which some counterexample cannot be explained."""
+        rows = self.needed[self.consistent] if self.consistent.any() else self.needed
+        return frozenset(self.conditions[n] for n in np.flatnonzero(rows.all(axis=0)))
+
+    @property
+    def open(self) -> frozenset[Condition]:
+        """The conditions that may or may not be needed."""
+        return frozenset(self.conditions) - self.proven
+
+    @cached_property
+    def most_general(self) -> tuple[frozenset[Condition], ...]:
+        """The smallest preconditions that explain all counterexamples; none if nothing does."""
+        rows = self.needed[self.consistent]
+        rows = rows[np.argsort(rows.sum(axis=1), kind="stable")]
+        found: list[NDArray[np.bool_]] = []
+        while len(rows):
+            smallest, rows = rows[0], rows[1:]
+            found.append(smallest)
+            rows = rows[(smallest & ~rows).any(axis=1)]
+        return tuple(
+            frozenset(self.conditions[n] for n in np.flatnonzero(smallest)) for smallest in found
+        )
+
+    def success_probability(self, space: AtomSpace, attempts: Attempts) -> NDArray[np.float64]:
+        """How likely the operator applies to attempts, in some binding (attempts,).
+
+        Args:
+            space: the ground atoms of the attempts' states.
+            attempts: skill instances in abstract states; unknown labels count against them.
+        """
+        indexed = IndexedOperator(self.operator, space, self.narrowed)
+        unmet = UnmetConditions.of(indexed, attempts)
+        probability = np.append(unmet.excused(self.needed) @ self.weights, 0.0)
+        found: NDArray[np.float64] = probability[unmet.family]
+        return found
+
+
+def version_spaces(
+    fit: Fit, skill: str, *, prior: Prior | None = None, doubt: float = 0.0
+) -> tuple[VersionSpace, ...]:
+    """The version spaces of the operators of a skill; what is likely in one is so in others.
+
+    Args:
+        fit: what was learned.
+        skill: name of the skill.
+        prior: how likely conditions are needed beforehand.
+        doubt: how likely a counterexample comes of a wrong label or of a cause that no predicate
+            speaks of yet, 0 to 1; 0 takes every one for right.
+    """
+    prior, of_skill = prior or Prior(), fit.skill(skill)
+    evidence = [_Evidence.of(fit, learned, of_skill) for learned in of_skill.operators]
+    alone = [e.weigh([prior.of(c) for c in e.conditions], doubt) for e in evidence]
+    if len(alone) < 2:
+        return tuple(alone)
+    return tuple(
+        own.weigh(_pooled(prior, alone, number), doubt) for number, own in enumerate(evidence)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Evidence:
+    """Counterexamples of an operator: transitions where it must not apply."""
+
+    operator: Operator
+    conditions: tuple[Condition, ...]
+    narrowed: frozenset[Variable]
+    scenes: tuple[UnmetConditions, ...]
+
+    @classmethod
+    def of(cls, fit: Fit, learned: LearnedOperator, of_skill: SkillFit) -> _Evidence:
+        signatures = {p.name: p.types for p in fit.predicates}
+        narrowed = frozenset(narrowed_types(fit.domain, signatures, learned.operator))
+        scenes: list[UnmetConditions] = []
+        conditions: tuple[Condition, ...] = ()
+        for prediction in of_skill.predictions:
+            table = prediction.table
+            indexed = IndexedOperator(learned.operator, table.space, narrowed)
+            rows = np.flatnonzero(~np.isin(table.ids, learned.cluster.ids))
+            scenes.append(UnmetConditions.of(indexed, attempts_of(table, rows)))
+            conditions = indexed.conditions
+        return cls(learned.operator, conditions, narrowed, tuple(scenes))
+
+    def weigh(self, prior: Sequence[float], doubt: float) -> VersionSpace:
+        """Weigh all hypotheses by a prior of every condition and by the counterexamples."""
+        chances = np.array(prior, dtype=np.float64)
+        needed, weights = self._hypotheses(chances)
+        against = np.zeros(len(needed), dtype=np.intp)
+        for unmet in self.scenes:
+            times = np.bincount(unmet.family[unmet.family >= 0], minlength=len(unmet.families))
+            against += np.minimum(times, _REPETITIONS) @ unmet.excused(needed)
+        weights = weights * float(doubt) ** (against - against.min())
+        return VersionSpace(
+            self.operator,
+            self.conditions,
+            self.narrowed,
+            needed,
+            against == 0,
+            weights / weights.sum(),
+        )
+
+    def _hypotheses(
+        self, chances: NDArray[np.float64]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+        """Parts of the conditions (hypotheses, conditions), with their weights beforehand."""
+        size = len(self.conditions)
+        if size <= _ENUMERATED:
+            needed = (np.arange(1 << size)[:, np.newaxis] >> np.arange(size)) & 1 == 1
+            return needed, np.where(needed, chances, 1 - chances).prod(axis=1)
+        drawn = np.random.default_rng(0).random((_DRAWN, size)) < chances
+        needed = np.vstack([drawn, np.ones((1, size), dtype=bool), ~np.eye(size, dtype=bool)])
+        return needed | self._surely_needed, np.where(np.arange(len(needed)) < _DRAWN, 1.0, 0.2)
+
+    @property
+    def _surely_needed(self) -> NDArray[np.bool_]:
+        """Conditions (conditions,) that a counterexample leaves as the only explanation."""
+        found = np.zeros(len(self.conditions), dtype=bool)
+        for unmet in self.scenes:
+            single = unmet.families[(unmet.families[:, 1:] < 0).all(axis=1), 0]
+            sets = unmet.sets[single]
+            found |= sets[sets.sum(axis=1) == 1].any(axis=0)
+        return found
+
+
+def _pooled(prior: Prior, alone: Sequence[VersionSpace], number: int) -> list[float]:
+    """The prior of an operator's conditions, after what the skill's other operators tell."""
+    others = [space.probability for place, space in enumerate(alone) if place != number]
+    pooled = []
+    for condition in alone[number].conditions:
+        shared = [prior.sibling * other[condition] for other in others if condition in other]
+        lacking = prior.missing ** (len(others) - len(shared))
+        own = prior.of(condition)
+        pooled.append(max(shared) if shared and max(shared) > own else own * lacking)
+    return pooled
