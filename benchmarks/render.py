@@ -11,7 +11,7 @@ from collections.abc import Callable
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.layout import make_layout
 from skillwrapper.domains.burger.renderer import BurgerRenderer
-from skillwrapper.world.observation import encode_png
+from skillwrapper.world.pictures import encode_png
 
 DRAWN_AT_LEAST = 400
 ENCODED_AT_LEAST = 150

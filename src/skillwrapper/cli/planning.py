@@ -21,7 +21,8 @@ from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learned import LearnedRun
 from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.world.environment import Environment
-from skillwrapper.world.observation import Observation, load_picture
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.pictures import load_picture
 
 RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
 GoalOption = Annotated[

@@ -39,6 +39,7 @@ from skillwrapper.symbols.files import read_model
 from skillwrapper.world.domain import Domain, build_domain
 from skillwrapper.world.domain_file import DomainFile
 from skillwrapper.world.environment import Environment
+from skillwrapper.world.robot import Robot, RobotEnvironment
 
 DOMAIN_FILE = "domain.yaml"
 _METHODS = ("reset", "execute", "observe", "close")
@@ -230,14 +231,13 @@ class DomainPackage:
         maker = self._load(reference, location)
         if not callable(maker):
             raise self._unexpected(location, "a class or a function", maker)
-        lacking = _lacking(maker, _METHODS) if inspect.isclass(maker) else []
-        if lacking:
-            raise ConfigurationError(f"{where}: {reference} lacks {', '.join(lacking)}")
+        if inspect.isclass(maker):
+            _check_members(maker, _METHODS, f"{where}: {reference}")
         with blamed(self.folder, f"{where}: {reference}"):
             made = maker(**({"domain": self.domain} if _takes_domain(maker) else {}))
-        lacking = _lacking(made, (*_METHODS, *_ATTRIBUTES))
-        if lacking:
-            raise ConfigurationError(f"{where}: {reference} lacks {', '.join(lacking)}")
+        if isinstance(made, Robot):
+            return RobotEnvironment(made, self.domain)
+        _check_members(made, (*_METHODS, *_ATTRIBUTES), f"{where}: {reference}")
         environment: Environment = made
         if environment.domain != self.domain:
             raise ConfigurationError(
@@ -281,8 +281,15 @@ def _what_is_missing(path: Path) -> str:
     return f"no such file or folder; expected a folder with a {DOMAIN_FILE}"
 
 
-def _lacking(thing: object, members: Iterable[str]) -> list[str]:
-    return [name for name in members if not hasattr(thing, name)]
+def _check_members(thing: object, members: Iterable[str], what: str) -> None:
+    """A robot has what its base class leaves open, an environment all of its protocol."""
+    is_robot = inspect.isclass(thing) and issubclass(thing, Robot)
+    lacking = [name for name in members if not hasattr(thing, name)]
+    if is_robot:
+        lacking = sorted(getattr(thing, "__abstractmethods__", ()))
+    if lacking:
+        wanted = "a Robot has look and run" if is_robot else "an Environment or a Robot is expected"
+        raise ConfigurationError(f"{what} lacks {', '.join(lacking)}; {wanted}")
 
 
 def _takes_domain(maker: Callable[..., Any]) -> bool:

@@ -28,7 +28,8 @@ from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
-from skillwrapper.world.observation import Observation, load_picture
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.pictures import load_picture
 from skillwrapper.world.skills import SkillInstance
 from skillwrapper.world.types import Object
 

@@ -9,7 +9,8 @@ from collections import OrderedDict
 
 from PIL import Image
 
-from skillwrapper.world.observation import Picture, encode_png
+from skillwrapper.world.observation import Picture
+from skillwrapper.world.pictures import encode_png
 
 
 class PictureEncoder:

@@ -11,7 +11,9 @@ from skillwrapper.world.capabilities import (
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Outcome, Transition
-from skillwrapper.world.observation import Observation, Picture, encode_png, load_picture
+from skillwrapper.world.observation import Observation, Picture
+from skillwrapper.world.pictures import encode_png, load_picture, observation_of
+from skillwrapper.world.robot import Robot, RobotEnvironment
 from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
 from skillwrapper.world.types import Object, TypeHierarchy
@@ -28,6 +30,8 @@ __all__ = [
     "Parameter",
     "Picture",
     "Replayable",
+    "Robot",
+    "RobotEnvironment",
     "Scene",
     "Settable",
     "Simulable",
@@ -40,4 +44,5 @@ __all__ = [
     "ground_skills",
     "load_domain",
     "load_picture",
+    "observation_of",
 ]

@@ -3,19 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import io
-import struct
-import zlib
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 
-import numpy as np
-from PIL import Image, UnidentifiedImageError
-
-from skillwrapper.errors import PictureError, UnknownNameError
-
-_PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+from skillwrapper.errors import UnknownNameError
 
 
 @dataclass(frozen=True)
@@ -66,38 +57,3 @@ class Observation:
         if camera not in by_camera:
             raise UnknownNameError("camera", camera, by_camera)
         return by_camera[camera]
-
-
-def encode_png(image: Image.Image) -> bytes:
-    """PNG bytes of an image in RGB; fast compression, the same bytes for the same pixels."""
-    # Pillow tries five filters for every row, which takes longer than all the rest and gains
-    # nothing on drawn pictures; so the rows are written here, unfiltered.
-    pixels = np.asarray(image if image.mode == "RGB" else image.convert("RGB"))
-    height, width = pixels.shape[:2]
-    rows = np.zeros((height, 1 + 3 * width), np.uint8)
-    rows[:, 1:] = pixels.reshape(height, 3 * width)
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.data, 1)), (b"IEND", b""))
-    return _PNG_SIGNATURE + b"".join(_png_chunk(kind, data) for kind, data in chunks)
-
-
-def _png_chunk(kind: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-
-def load_picture(path: Path, camera: str = "main") -> Picture:
-    """Read a picture from a file; other formats than PNG are converted.
-
-    Raises:
-        PictureError: if the file is missing or is no picture.
-    """
-    try:
-        data = path.read_bytes()
-        with Image.open(io.BytesIO(data)) as image:
-            image.load()
-            png = data if image.format == "PNG" else encode_png(image.convert("RGB"))
-    except FileNotFoundError as error:
-        raise PictureError(f"{path}: no such picture") from error
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
-        raise PictureError(f"{path}: expected a picture (PNG, JPEG, ...)") from error
-    return Picture(png, camera)

@@ -15,7 +15,8 @@ from skillwrapper.domains.burger.system_predicates import system_atoms
 from skillwrapper.errors import RobotError
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.episode import Outcome
-from skillwrapper.world.observation import Observation, Picture, encode_png
+from skillwrapper.world.observation import Observation, Picture
+from skillwrapper.world.pictures import encode_png
 from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 

@@ -11,7 +11,8 @@ from typing import Final
 from PIL import Image, ImageEnhance, ImageFilter
 
 from skillwrapper.errors import UnknownNameError
-from skillwrapper.world.observation import Observation, Picture, encode_png
+from skillwrapper.world.observation import Observation, Picture
+from skillwrapper.world.pictures import encode_png
 
 Distortion = Callable[[Image.Image], Image.Image]
 

@@ -23,7 +23,8 @@ from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world.capabilities import Enumerable, require
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
-from skillwrapper.world.observation import Observation, load_picture
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.pictures import load_picture
 from skillwrapper.world.types import Object
 
 _ATOM = re.compile(r"\s*([A-Za-z][\w-]*)\s*(?:\(([^()]*)\))?\s*")
