@@ -125,7 +125,8 @@ def _command(file: Path, out: Path, workers: int, ray: str | None) -> str:
 
 
 def _report(folder: ExperimentFolder) -> Report:
-    return Report.of(folder.experiment(), tuple(folder.results()), folder.runs())
+    cells = tuple(folder.results())
+    return Report.of(folder.experiment(), cells, folder.runs(), folder.published())
 
 
 def _progress(console: Console) -> Progress:

@@ -116,7 +116,7 @@ class ExperimentContents:
             RunFolderError: if a file is damaged.
         """
         experiment, cells = folder.experiment(), tuple(folder.results())
-        report = Report.of(experiment, cells, folder.runs())
+        report = Report.of(experiment, cells, folder.runs(), folder.published())
         groups = []
         for (domain, noise), by_method in group_cells(cells).items():
             mine = [

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from made_up_cells import made_up_cell
 
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import MissingDependencyError
 from skillwrapper.evaluation.benchmark import plots
 from skillwrapper.evaluation.benchmark.experiments import Experiment
@@ -18,6 +19,7 @@ from skillwrapper.evaluation.benchmark.origins import Origin
 from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.benchmark.tables import Report
 from skillwrapper.evaluation.exact.learning_curves import area_under
+from skillwrapper.evaluation.published import published_figures
 
 ALL, NONE = (True,) * 4, (False,) * 4
 
@@ -116,7 +118,8 @@ def test_area_under_a_staircase(points: list[tuple[int, float]], area: float) ->
 
 
 def report() -> Report:
-    return Report.of(EXPERIMENT, CELLS)
+    published = published_figures(find_domain("burger")).results
+    return Report.of(EXPERIMENT, CELLS, published={"burger": published})
 
 
 def test_report_as_json() -> None:

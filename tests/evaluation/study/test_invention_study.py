@@ -20,7 +20,7 @@ PAIRS = find_domain("burger").pairs
 
 @pytest.fixture(scope="module")
 def judge() -> MeaningJudge:
-    return MeaningJudge("burger", 80, seed=0)
+    return MeaningJudge(find_domain("burger"), 80, seed=0)
 
 
 def predicate(name: str, *types: str, means: str = "") -> Predicate:

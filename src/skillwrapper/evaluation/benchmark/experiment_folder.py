@@ -1,7 +1,7 @@
 """The folder of an experiment's results.
 
 experiment.yaml         what was asked for, with versions and commit
-problems/burger.yaml    the problems that are solved
+problems/<domain>.yaml  the problems that are solved
 runs.jsonl              every command that ran cells, with versions and commit
 cells/<cell>/           result.json, problems.jsonl, run/ (like any other run), error.txt
 truth/                  labels of predicates in all states, shared by all cells
@@ -24,6 +24,7 @@ from skillwrapper.evaluation.benchmark.experiments import Experiment
 from skillwrapper.evaluation.benchmark.origins import Origin
 from skillwrapper.evaluation.methods.method import Cell
 from skillwrapper.evaluation.problems.problems import ProblemSet, read_problems
+from skillwrapper.evaluation.published import PublishedResults, published_figures
 from skillwrapper.files.json_documents import read_lines
 from skillwrapper.files.writing import append_line, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
@@ -104,6 +105,12 @@ class ExperimentFolder:
         """The commands that ran cells, in order of time."""
         lines = read_lines(self.path / _RUNS)
         return tuple(Origin(line["command"], line["made_with"]) for line in lines)
+
+    def published(self) -> dict[str, PublishedResults]:
+        """What others published of the domains, for the same methods."""
+        return {
+            name: published_figures(find_domain(name)).results for name in self.experiment().domains
+        }
 
     def problem_file(self, domain: str) -> Path:
         """Where the problems of a domain stand."""

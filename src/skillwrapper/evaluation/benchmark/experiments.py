@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-from skillwrapper.domains.discovery import find_domain
+from skillwrapper.domains.discovery import bundled_names, find_domain
 from skillwrapper.embedded.noise import PROFILES, noise_profile
 from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
 from skillwrapper.evaluation.methods.method import Cell, CellSettings
@@ -40,7 +40,7 @@ class Experiment(BaseModel):
         name: of the experiment.
         description: what it is to show.
         methods: names of methods, in any order.
-        domains: names of domains.
+        domains: references to domains; by default all bundled ones.
         seeds: every method runs once with each.
         noise: profiles of the embedded model (``none``, ``gpt5``), or rates from 0 to 1 with
             which every judgement errs.
@@ -53,7 +53,7 @@ class Experiment(BaseModel):
     name: str = Field(pattern=r"^[A-Za-z0-9][\w-]*$")
     description: str = ""
     methods: tuple[str, ...] = Field(min_length=1)
-    domains: tuple[str, ...] = Field(default=("burger",), min_length=1)
+    domains: tuple[str, ...] = Field(default_factory=bundled_names, min_length=1)
     seeds: tuple[int, ...] = Field(default=(0,), min_length=1)
     noise: tuple[str, ...] = Field(default=("none",), min_length=1)
     settings: CellSettings = Field(default_factory=CellSettings)

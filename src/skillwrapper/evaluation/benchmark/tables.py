@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 from skillwrapper.evaluation.benchmark.cells import CellResult
@@ -16,8 +16,8 @@ from skillwrapper.evaluation.benchmark.figures import (
     group_cells,
 )
 from skillwrapper.evaluation.benchmark.origins import Origin
-from skillwrapper.evaluation.benchmark.paper_figures import PAPER_FIGURES, PAPER_NOTE
 from skillwrapper.evaluation.methods.registry import METHODS
+from skillwrapper.evaluation.published import PublishedMethod, PublishedResults
 
 MAIN_METHOD: Final = "ours"
 """What the others are compared with, if it takes part."""
@@ -120,6 +120,7 @@ class Report:
         methods: figures of every method, by domain and noise, in the order of tables.
         comparisons: of every method with the main one.
         origins: the commands that ran the cells.
+        published: what others published, by domain.
     """
 
     experiment: Experiment
@@ -127,6 +128,7 @@ class Report:
     methods: tuple[MethodFigures, ...]
     comparisons: tuple[Comparison, ...]
     origins: tuple[Origin, ...] = ()
+    published: Mapping[str, PublishedResults] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -134,6 +136,7 @@ class Report:
         experiment: Experiment,
         cells: Sequence[CellResult],
         origins: Sequence[Origin] = (),
+        published: Mapping[str, PublishedResults] | None = None,
     ) -> Report:
         """Put the report of the finished cells together."""
         methods: list[MethodFigures] = []
@@ -145,7 +148,14 @@ class Report:
             comparisons += [
                 compare(by_method[main], by_method[name]) for name in names if name != main
             ]
-        return cls(experiment, len(cells), tuple(methods), tuple(comparisons), tuple(origins))
+        return cls(
+            experiment,
+            len(cells),
+            tuple(methods),
+            tuple(comparisons),
+            tuple(origins),
+            published or {},
+        )
 
     @property
     def note(self) -> str:
@@ -198,7 +208,8 @@ class Report:
             mine = [m for m in self.methods if (m.domain, m.noise) == group]
             where = f"{group[0]}, noise {group[1]}"
             tables = [_figures(f"{title} ({where})", mine, layout) for title, layout in _LAYOUTS]
-            found += [tables[0], _beside_paper(where, mine), *tables[1:]]
+            published = self.published.get(group[0], PublishedResults())
+            found += [tables[0], _beside_published(where, mine, published), *tables[1:]]
             found.append(_causes(where, mine))
             theirs = [c for c in self.comparisons if (c.domain, c.noise) == group]
             found.append(_comparisons(where, theirs))
@@ -217,21 +228,23 @@ def _figures(
     return Table(title, ("method", *(heading for heading, _, _ in layout)), rows)
 
 
-def _beside_paper(where: str, methods: Sequence[MethodFigures]) -> Table:
-    """Our figures and the paper's, of the methods and domains that are in both."""
-    names = ("easy", "budget_easy", "hard", "budget_hard", "impossible")
+def _beside_published(
+    where: str, methods: Sequence[MethodFigures], published: PublishedResults
+) -> Table:
+    """Our figures and the paper's, of the methods that are in both."""
+    names = tuple(PublishedMethod.model_fields)
     rows = []
     for method in methods:
-        row = PAPER_FIGURES.get(method.domain, {}).get(method.method)
+        row = published.methods.get(method.method)
         if row is not None:
-            pairs = ((_figure(method, name, 1), _paper(getattr(row, name))) for name in names)
+            pairs = ((_figure(method, name, 1), _published(getattr(row, name))) for name in names)
             rows.append((_title(method.method), *(text for pair in pairs for text in pair)))
     headings = ("easy %", "budget", "hard %", "budget", "impossible %")
     columns = ("method", *(text for heading in headings for text in (heading, "paper")))
-    return Table(f"Beside the paper ({where})", columns, tuple(rows), PAPER_NOTE)
+    return Table(f"Beside the paper ({where})", columns, tuple(rows), published.note)
 
 
-def _paper(figure: tuple[float, float] | None) -> str:
+def _published(figure: tuple[float, float] | None) -> str:
     return "-" if figure is None else f"{figure[0]:.1f} ± {figure[1]:.1f}"
 
 

@@ -26,19 +26,19 @@ class Condition:
         meaning: what is done, for people.
         distort: changes a picture; None leaves it as it is.
         layouts: whether every picture shows an arrangement of its own.
-        drawing: name of another drawing of the same objects; empty for the usual one.
+        redrawn: whether the objects are drawn in another way, if the domain has one.
     """
 
     name: str
     meaning: str
     distort: Distortion | None = None
     layouts: bool = False
-    drawing: str = ""
+    redrawn: bool = False
 
     @property
     def needs_simulator(self) -> bool:
         """Whether the pictures have to be drawn anew."""
-        return self.layouts or bool(self.drawing)
+        return self.layouts or self.redrawn
 
     def apply(self, observation: Observation) -> Observation:
         """The observation as it is shown under this condition."""
@@ -85,7 +85,7 @@ _ALL = (
     Condition("harsh", "contrast times 1.6", _contrast(1.6)),
     Condition("blur", "Gaussian blur with a radius of 3 pixels", _blur(3)),
     Condition("jpeg", "JPEG compression with quality 10", _compression(10)),
-    Condition("drawing", "another drawing of the same objects", drawing="chalk"),
+    Condition("drawing", "another drawing of the same objects", redrawn=True),
 )
 CONDITIONS: Final[Mapping[str, Condition]] = MappingProxyType({c.name: c for c in _ALL})
 """All conditions by name; how strong they are was fixed before anything was measured."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.domains.discovery import find_domain
+from skillwrapper.evaluation.published import PublishedInvention, published_figures
 from skillwrapper.evaluation.study.contrastive_pairs import read_pairs
 from skillwrapper.evaluation.study.judge import MeaningJudge
 from skillwrapper.evaluation.study.meaning import Meaning
@@ -58,12 +59,14 @@ class InventionStudy:
         states: in how many states meanings were compared.
         targets: the target of every pair, as text, by the pair's name.
         proposals: by model, pair and run.
+        published: figures of others to stand beside; None if there are none.
     """
 
     domain: str
     states: int
     targets: dict[str, str]
     proposals: tuple[Proposal, ...]
+    published: PublishedInvention | None = None
 
     @property
     def models(self) -> tuple[StudiedModel, ...]:
@@ -111,7 +114,7 @@ def study_invention(
     """Put every pair to every model, and decide by truth over states what was proposed.
 
     Args:
-        domain: a bundled domain.
+        domain: a reference to a domain.
         models: who proposes.
         runs: how often each is asked.
         states: in how many sampled states meanings are compared; None for all.
@@ -124,8 +127,9 @@ def study_invention(
         UserError: if the domain or the pairs cannot be used.
         ProviderError: if a model does not answer.
     """
-    judge = MeaningJudge(domain, states, seed)
-    path = pairs_file or find_domain(domain).pairs
+    package = find_domain(domain)
+    judge = MeaningJudge(package, states, seed)
+    path = pairs_file or package.pairs
     pairs = read_pairs(path, judge.environment, judge.expert)
     proposals = []
     for model in models:
@@ -138,4 +142,5 @@ def study_invention(
                 meaning = judge.judge(proposed, pair.target) if proposed else Meaning.OTHER
                 proposals.append(Proposal(model, pair.name, run + 1, proposed, meaning))
     targets = {pair.name: str(pair.target) for pair in pairs}
-    return InventionStudy(domain, len(judge.states), targets, tuple(proposals))
+    published = published_figures(package).invention
+    return InventionStudy(domain, len(judge.states), targets, tuple(proposals), published)

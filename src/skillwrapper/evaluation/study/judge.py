@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from skillwrapper.domains.discovery import find_domain
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.evaluation.study.meaning import (
     Columns,
     Meaning,
@@ -31,12 +31,12 @@ class MeaningJudge:
     what that model does not understand stays undecided, and is for people to judge.
 
     Args:
-        domain: name of a bundled domain.
+        package: the domain.
         states: how many states are sampled; None for all.
         seed: of the sample.
 
     Raises:
-        UserError: if there is no such domain, or its states cannot be listed.
+        ConfigurationError: if its states cannot be listed, or it has no expert.
 
     Attributes:
         environment: draws the states.
@@ -44,8 +44,7 @@ class MeaningJudge:
         states: the states in which truth is compared.
     """
 
-    def __init__(self, domain: str, states: int | None, seed: int) -> None:
-        package = find_domain(domain)
+    def __init__(self, package: DomainPackage, states: int | None, seed: int) -> None:
         environment = require(package.make_environment(), Enumerable, "judging meanings")
         expert = package.expert
         chosen = list(environment.reachable_states())

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from skillwrapper.evaluation.published import PublishedPerception
 from skillwrapper.evaluation.study.conditions import Condition
 from skillwrapper.evaluation.study.models import StudiedModel, open_studied
 from skillwrapper.evaluation.study.scoring import (
@@ -34,12 +35,12 @@ class ConditionResult:
     scores: tuple[PredicateScore, ...]
 
     @property
-    def accuracy(self) -> float:
+    def accuracy(self) -> float | None:
         """Mean accuracy over the predicates, by groundings."""
         return mean_accuracy(self.scores, lifted=False)
 
     @property
-    def lifted_accuracy(self) -> float:
+    def lifted_accuracy(self) -> float | None:
         """Mean accuracy over the predicates as the paper defines it."""
         return mean_accuracy(self.scores, lifted=True)
 
@@ -65,12 +66,14 @@ class PerceptionStudy:
         pictures: how many pictures were read under each condition.
         results: by condition, then by model.
         left_out: conditions that could not be shown.
+        published: figures of others to stand beside.
     """
 
     origin: str
     pictures: int
     results: tuple[ConditionResult, ...]
     left_out: tuple[str, ...]
+    published: PublishedPerception
 
     @property
     def models(self) -> tuple[StudiedModel, ...]:
@@ -129,7 +132,8 @@ def study_perception(
                 scores = _read(subject, samples, assistant)
             results.append(ConditionResult(model, condition, scores))
     left_out = tuple(c.name for c in conditions if c not in shown)
-    return PerceptionStudy(subject.origin, pictures, tuple(results), left_out)
+    published = subject.published.perception
+    return PerceptionStudy(subject.origin, pictures, tuple(results), left_out, published)
 
 
 def _read(

@@ -37,15 +37,15 @@ class PredicateScore:
     pictures_right: int
 
     @property
-    def accuracy(self) -> float:
-        """Share of the groundings that are read rightly; an unknown one is not."""
+    def accuracy(self) -> float | None:
+        """Share of the groundings read rightly, an unknown one is not; None without any."""
         wrong = self.false_positives + self.false_negatives + self.unknown
-        return (self.readings - wrong) / self.readings if self.readings else 1.0
+        return (self.readings - wrong) / self.readings if self.readings else None
 
     @property
-    def lifted_accuracy(self) -> float:
-        """The paper's measure: share of the pictures in which all groundings are right."""
-        return self.pictures_right / self.pictures if self.pictures else 1.0
+    def lifted_accuracy(self) -> float | None:
+        """The paper's measure: share of the pictures with all groundings right; None without."""
+        return self.pictures_right / self.pictures if self.pictures else None
 
     def to_json(self) -> dict[str, Any]:
         """Plain data with the accuracies."""
@@ -78,7 +78,8 @@ def score_predicate(
     )
 
 
-def mean_accuracy(scores: Iterable[PredicateScore], *, lifted: bool) -> float:
-    """Mean over the predicates, each counting alike, as in the paper."""
+def mean_accuracy(scores: Iterable[PredicateScore], *, lifted: bool) -> float | None:
+    """Mean over the predicates that were read, each counting alike, as in the paper."""
     values = [score.lifted_accuracy if lifted else score.accuracy for score in scores]
-    return sum(values) / len(values) if values else 1.0
+    known = [value for value in values if value is not None]
+    return sum(known) / len(known) if known else None

@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.domains.discovery import find_domain
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.evaluation.published import PublishedFigures, published_figures
 from skillwrapper.evaluation.study.conditions import Condition
 from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.evaluation.study.scoring import Readings
@@ -54,6 +56,9 @@ class Subject:
         origin: where the predicates and their truth come from, for tables.
     """
 
+    published = PublishedFigures()
+    """Figures of others, to stand beside."""
+
     def __init__(self, domain: Domain, predicates: Sequence[Predicate], origin: str) -> None:
         if not predicates:
             raise ConfigurationError(f"{origin}: expected predicates to study, got none")
@@ -77,10 +82,10 @@ class Subject:
 
 
 class SimulatedSubject(Subject):
-    """Pictures of sampled states of a bundled domain.
+    """Pictures of sampled states of a domain that can list them.
 
     Args:
-        name: of the domain.
+        package: the domain.
         predicates: what is read.
         truth: the true atoms of a state, or None: then what the noise-free embedded model reads
             off the usual drawing in the same arrangement counts as the truth.
@@ -91,7 +96,7 @@ class SimulatedSubject(Subject):
 
     def __init__(
         self,
-        name: str,
+        package: DomainPackage,
         predicates: Sequence[Predicate],
         truth: Callable[[Any], set[Atom]] | None,
         origin: str,
@@ -99,8 +104,9 @@ class SimulatedSubject(Subject):
         pictures: int,
         seed: int,
     ) -> None:
-        self._name, self._truth, self._package = name, truth, find_domain(name)
-        self._usual = _enumerable(self._package.make_environment())
+        self._truth, self._package = truth, package
+        self.published = published_figures(package)
+        self._usual = _enumerable(package.make_environment())
         super().__init__(self._usual.domain, predicates, origin)
         states = list(self._usual.reachable_states())
         chance = random.Random(f"perception study {seed}")
@@ -108,14 +114,15 @@ class SimulatedSubject(Subject):
         self._seed = seed
 
     def supports(self, condition: Condition) -> bool:
-        """Other arrangements always; other drawings if the domain has them."""
-        return not condition.drawing or condition.drawing in self._package.entries.drawings
+        """Other arrangements always; another drawing if the domain has one."""
+        return not condition.redrawn or self._package.has("drawings")
 
     def samples(self, condition: Condition) -> tuple[Sample, ...]:
         """The sampled states, drawn under a condition."""
         shown = self._usual
-        if condition.drawing:
-            shown = _enumerable(self._package.make_environment(condition.drawing))
+        if condition.redrawn:
+            drawing = next(iter(self._package.entries.drawings))
+            shown = _enumerable(self._package.make_environment(drawing))
         pictures, plain = [], []
         for number, state in enumerate(self._states):
             layout = _LAYOUT + (1 + number + 100_000 * self._seed if condition.layouts else 0)
@@ -184,8 +191,8 @@ def subject_of(
     """What a target stands for.
 
     Args:
-        target: a bundled domain (its expert's predicates, true by the simulator) or the folder of
-            a run (its learned predicates, true by the noise-free embedded model).
+        target: a reference to a domain (its expert's predicates, true by the simulator) or the
+            folder of a run (its learned predicates, true by the noise-free embedded model).
         labels: pictures of one's own with their true atoms, instead of the simulator's.
         pictures: how many states are sampled.
         seed: of the sample.
@@ -197,16 +204,17 @@ def subject_of(
         learned = LearnedRun.read(RunFolder.open(Path(target)))
         config: RunSettings = learned.folder.config()
         domain, predicates = learned.model.domain, learned.model.predicates
-        name, truth = config.domain, None
+        package, truth = find_domain(config.domain), None
         origin = f"learned predicates of {target}, true by the embedded model without noise"
     else:
-        expert = find_domain(target).expert
-        domain, predicates, name = expert.model.domain, expert.model.predicates, target
+        package = find_domain(target)
+        expert = package.expert
+        domain, predicates = expert.model.domain, expert.model.predicates
         truth = _set_of(expert.atoms)
         origin = f"expert's predicates of {target}, true by the simulator"
     if labels is not None:
         return LabelledSubject(domain, predicates, labels)
-    return SimulatedSubject(name, predicates, truth, origin, pictures=pictures, seed=seed)
+    return SimulatedSubject(package, predicates, truth, origin, pictures=pictures, seed=seed)
 
 
 def parse_atom(text: str, where: str) -> Atom:

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from skillwrapper.evaluation.published import PublishedInvention
 from skillwrapper.evaluation.study.invention import InventionStudy, Proposal
 from skillwrapper.evaluation.study.meaning import Meaning
 from skillwrapper.evaluation.study.perception import PerceptionStudy
-from skillwrapper.evaluation.study.published import BY_CONDITION, INVENTION, PUBLISHED_RUNS
 
 EMBEDDED_NOTE = (
     "The embedded model is a stand-in for trying, testing and simulation studies; its figures "
     "say nothing about a real model."
 )
-_PUBLISHED = "GPT-5 in the paper: Franka / Kuka"
 _MARKS = {
     Meaning.SYNONYM: "yes, synonym",
     Meaning.ANTONYM: "yes, antonym",
@@ -48,27 +47,30 @@ class StudyTable:
 
 
 def perception_tables(study: PerceptionStudy) -> tuple[StudyTable, ...]:
-    """Accuracy by condition beside the paper's figures, then every predicate."""
+    """Accuracy by condition beside published figures, then every predicate."""
     return (_conditions_table(study), *_predicate_tables(study))
 
 
 def invention_tables(study: InventionStudy) -> tuple[StudyTable, ...]:
-    """Correct runs of every pair, the paper's pairs beside them, and what was proposed."""
-    return (_pairs_table(study), _published_pairs_table(), *_proposal_tables(study))
+    """Correct runs of every pair, published pairs beside them, and what was proposed."""
+    published = (_published_pairs_table(study.published),) if study.published else ()
+    return (_pairs_table(study), *published, *_proposal_tables(study))
 
 
 def _conditions_table(study: PerceptionStudy) -> StudyTable:
-    rows = []
+    rows, published = [], study.published.conditions
     for condition in study.conditions:
         cells = [f"{condition.name}: {condition.meaning}"]
         for model in study.models:
             result = study.result(model, condition)
             cells += [_percent(result.lifted_accuracy), _percent(result.accuracy)]
-        printed = BY_CONDITION.get(condition.name)
-        cells.append(f"{_percent(printed.franka)} / {_percent(printed.kuka)}" if printed else "")
+        if published:
+            printed = published.get(condition.name, ())
+            cells.append(" / ".join(map(_percent, printed)))
         rows.append(tuple(cells))
     measures = [(m, what) for m in study.models for what in ("lifted accuracy", "accuracy")]
-    columns = ("condition", *(f"{m.label}: {what}" for m, what in measures), _PUBLISHED)
+    beside = [study.published.heading] if published else []
+    columns = ("condition", *(f"{m.label}: {what}" for m, what in measures), *beside)
     return StudyTable(
         f"Mean accuracy over all predicates, {study.pictures} pictures each",
         columns,
@@ -83,12 +85,8 @@ def _perception_notes(study: PerceptionStudy) -> Iterator[str]:
         "Lifted accuracy, the paper's measure: a predicate is right in a picture if all of its "
         "groundings are; accuracy counts single groundings. An unknown label is not right."
     )
-    if any(condition.name in BY_CONDITION for condition in study.conditions):
-        yield (
-            "The paper's figures are lifted accuracies of other robots, predicates and pictures: "
-            "over all predicates for clean pictures, and means of its tables for lighting and "
-            "domain shift beside the conditions that come nearest."
-        )
+    if study.published.note:
+        yield study.published.note
     if study.left_out:
         yield f"Left out, because they need a simulator's drawing: {', '.join(study.left_out)}."
     if any(model.is_embedded for model in study.models):
@@ -150,16 +148,16 @@ def _pairs_table(study: InventionStudy) -> StudyTable:
     )
 
 
-def _published_pairs_table() -> StudyTable:
-    of = PUBLISHED_RUNS
-    rows = [(p.pair, p.target, f"{p.gpt5} of {of}", f"{p.qwen3} of {of}") for p in INVENTION]
-    gpt5, qwen3 = sum(p.gpt5 for p in INVENTION), sum(p.qwen3 for p in INVENTION)
-    total = of * len(INVENTION)
+def _published_pairs_table(published: PublishedInvention) -> StudyTable:
+    pairs, runs = published.pairs, published.runs
+    rows = [(p.name, p.target, *(f"{n} of {runs}" for n in p.correct)) for p in pairs]
+    sums = [sum(p.correct[number] for p in pairs) for number in range(len(published.models))]
+    totals = (f"{right} of {runs * len(pairs)}" for right in sums)
     return StudyTable(
-        "The paper's four curated pairs, for comparison",
-        ("pair", "target", "GPT-5", "Qwen3-VL-235B"),
-        (*rows, ("all pairs", "", f"{gpt5} of {total}", f"{qwen3} of {total}")),
-        ("Other robots, other pictures; judged by its authors.",),
+        published.title,
+        ("pair", "target", *published.models),
+        (*rows, ("all pairs", "", *totals)),
+        (published.note,) if published.note else (),
     )
 
 
@@ -182,5 +180,5 @@ def _correct(proposals: list[Proposal] | tuple[Proposal, ...]) -> str:
     return f"{right} of {len(proposals)}{undecided}"
 
 
-def _percent(share: float) -> str:
-    return f"{100 * share:.1f} %"
+def _percent(share: float | None) -> str:
+    return "undefined" if share is None else f"{100 * share:.1f} %"
