@@ -11,20 +11,24 @@ from pathlib import Path
 import pytest
 
 from skillwrapper.cli.main import main
-from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.learn import learn
+from skillwrapper.runs.models import open_model
 from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
-from skillwrapper.vlm.protocol import Role
+from skillwrapper.vlm.protocol import Role, VisionLanguageModel
 from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus
 
 KEY = "sk-planted-0815-secret"
 FAST = {"first_wait": 0.002, "longest_wait": 0.01}
+
+
+def embedded(seed: int) -> VisionLanguageModel:
+    return open_model("embedded", ModelSettings(), seed)
 
 
 @pytest.fixture(autouse=True)
@@ -37,7 +41,7 @@ def _environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def server() -> Iterator[VlmServer]:
-    with VlmServer(EmbeddedModel(1), ServerSettings(key=KEY)) as running:
+    with VlmServer(embedded(1), ServerSettings(key=KEY)) as running:
         yield running
 
 
@@ -96,7 +100,7 @@ def test_a_run_over_http_learns_the_same_and_keeps_no_key(
 def test_a_run_survives_faults(direct: dict[str, bytes], tmp_path: Path) -> None:
     ways = (*PASSING, *[NONSENSE] * 8)
     faults = FaultPlan(rate=0.3, kinds=ways, seed=1, retry_after=0.01, slowness=0.01)
-    with VlmServer(EmbeddedModel(1), ServerSettings(faults=faults)) as server:
+    with VlmServer(embedded(1), ServerSettings(faults=faults)) as server:
         learn(over(server, parallel=4), tmp_path / "run")
     assert model_of(tmp_path / "run") == direct
     with CallStore(tmp_path / "run" / "calls.sqlite", read_only=True) as store:

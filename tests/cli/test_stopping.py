@@ -10,8 +10,8 @@ import time
 from pathlib import Path
 
 import pytest
+from seen_kitchen import embedded_model
 
-from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FaultPlan
 
@@ -53,7 +53,7 @@ def ended(process: subprocess.Popen[str]) -> tuple[int, str]:
 def busy_for(seconds: float, kind: str) -> VlmServer:
     """A server that answers a few calls, then lets all others wait."""
     plan = FaultPlan(1.0, (kind,), retry_after=seconds, slowness=seconds, after=2)
-    return VlmServer(EmbeddedModel(0), ServerSettings(faults=plan))
+    return VlmServer(embedded_model(0), ServerSettings(faults=plan))
 
 
 @pytest.mark.parametrize(

@@ -6,10 +6,9 @@ import itertools
 from collections import Counter
 
 import pytest
-from seen_kitchen import EXPERT, embedded_model, kitchen
+from seen_kitchen import EXPERT, LEXICON, embedded_model, kitchen
 
 from skillwrapper.embedded import EmbeddedModel, NoiseProfile
-from skillwrapper.embedded.lexicon import all_concepts
 from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.invention.questions import BatchInventionQuestion, InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -22,7 +21,9 @@ from skillwrapper.vlm.protocol import ModelRequest, Role
 from skillwrapper.world import Observation, Picture, Transition
 
 CONCEPT_BY_NAME = {
-    name: concept for concept in all_concepts(("stove", "board")) for name in concept.names
+    name: concept
+    for concept in LEXICON.concepts(kitchen().graph(kitchen().states[0]).outline)
+    for name in concept.wording.names
 }
 
 
@@ -124,7 +125,7 @@ def test_known_and_rejected_ideas_are_not_proposed_in_other_words() -> None:
             InconsistencyKind.EFFECT, success, failure, known, rejected=(rejected,)
         )
         for predicate in assistant(seed).invent_predicates(question).predicates:
-            assert CONCEPT_BY_NAME[predicate.name].idea not in {"cut", "hand_empty"}
+            assert CONCEPT_BY_NAME[predicate.name].idea not in {"cut", "nothing held"}
 
 
 def test_a_known_idea_for_more_types_keeps_its_name_and_meaning() -> None:

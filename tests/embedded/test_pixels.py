@@ -12,7 +12,7 @@ from skillwrapper.embedded.pixels import (
     find_patches,
     middle_of,
 )
-from skillwrapper.embedded.scene import Box
+from skillwrapper.embedded.scene_graph import Box
 from skillwrapper.errors import PictureError
 from skillwrapper.world import encode_png
 

@@ -6,10 +6,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from seen_kitchen import embedded_model
 
 from skillwrapper.cli.main import main
 from skillwrapper.domains.discovery import bundled_domains, find_domain
-from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded import server_faults as faults
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FaultPlan
@@ -17,17 +17,19 @@ from skillwrapper.errors import ConfigurationError
 from skillwrapper.runs.doctor import Finding, examine
 from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.runs.specimens import read_specimen
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper, VisionLanguageModel
 from skillwrapper.world.observation import Picture
 from skillwrapper.world.skills import SkillInstance
 
 SPECIMEN = read_specimen(next(p for p in bundled_domains() if p.has("doctor")))
 
 
-class OldPicture(EmbeddedModel):
+class OldPicture(ModelWrapper):
     """Sees the same picture whatever is shown: the first one it ever saw."""
 
-    first: tuple[Picture, ...] = ()
+    def __init__(self) -> None:
+        super().__init__(embedded_model(0))
+        self.first: tuple[Picture, ...] = ()
 
     def complete(self, request: ModelRequest) -> ModelReply:
         self.first = self.first or request.pictures
@@ -39,7 +41,7 @@ class OldPicture(EmbeddedModel):
         )
 
 
-def findings(model: EmbeddedModel, fault: str | None = None) -> list[Finding]:
+def findings(model: VisionLanguageModel, fault: str | None = None) -> list[Finding]:
     plan = FaultPlan(1.0, (fault,)) if fault else FaultPlan()
     with VlmServer(model, ServerSettings(faults=plan)) as server:
         return list(examine(ModelSettings(name="openai:embedded", base_url=server.url)))
@@ -51,7 +53,7 @@ def _environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_model_that_sees_passes() -> None:
-    found = findings(EmbeddedModel(0))
+    found = findings(embedded_model(0))
     assert all(finding.passed for finding in found), found
     assert found[-1].detail == "right about 4 of 4 true, 20 of 20 false, 2 of 2 changed"
 
@@ -65,14 +67,14 @@ def test_a_model_that_sees_passes() -> None:
     ],
 )
 def test_who_does_not_look_or_listen_fails(fault: str, why: str) -> None:
-    found = findings(EmbeddedModel(0), fault)
+    found = findings(embedded_model(0), fault)
     assert not found[-1].passed
     assert found[-1].check == "reading pictures"
     assert any(words in found[-1].detail for words in why.split("|"))
 
 
 def test_who_always_sees_the_same_picture_fails() -> None:
-    found = findings(OldPicture(0))
+    found = findings(OldPicture())
     assert not found[-1].passed
     assert "different pictures" in found[-1].detail
 
@@ -101,7 +103,7 @@ def test_a_domain_without_pictures_says_so(tmp_path: Path) -> None:
 
 def test_the_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     plan = FaultPlan(1.0, (faults.ALL_FALSE,))
-    with VlmServer(EmbeddedModel(0), ServerSettings(faults=plan)) as server:
+    with VlmServer(embedded_model(0), ServerSettings(faults=plan)) as server:
         line = ["doctor", "--model", "openai:embedded", "--base-url", server.url, "--timeout", "9"]
         monkeypatch.setattr(sys, "argv", ["skillwrapper", *line])
         with pytest.raises(SystemExit) as stopped:

@@ -14,15 +14,20 @@ from pathlib import Path
 
 import pytest
 
-from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError, ModelNotFoundError, RunFolderError
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.folder import held
 from skillwrapper.runs.learn import learn
+from skillwrapper.runs.models import open_model
 from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    ModelWrapper,
+    VisionLanguageModel,
+)
 from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus
@@ -33,11 +38,15 @@ FAULTS = FaultPlan(
 )
 
 
+def embedded(seed: int) -> VisionLanguageModel:
+    return open_model("embedded", ModelSettings(), seed)
+
+
 class MoodyModel(ModelWrapper):
     """Answers otherwise each time it is asked, and sometimes says nothing of use."""
 
     def __init__(self) -> None:
-        super().__init__(EmbeddedModel())
+        super().__init__(embedded(0))
         self.asked = 0
         self._lock = threading.Lock()
 
@@ -47,7 +56,7 @@ class MoodyModel(ModelWrapper):
             number = self.asked
         if hashlib.sha256(str(number).encode()).digest()[0] < 50:
             return ModelReply(f"I had rather not say, for the time being ({number}).")
-        return EmbeddedModel(number).complete(request)
+        return embedded(number).complete(request)
 
 
 @pytest.fixture(autouse=True)
@@ -130,7 +139,7 @@ def test_two_processes_do_not_learn_in_one_folder(tmp_path: Path) -> None:
 
 def test_a_mistake_that_only_the_server_notices_leaves_nothing_behind(tmp_path: Path) -> None:
     run = tmp_path / "run"
-    with VlmServer(EmbeddedModel(1)) as server:
+    with VlmServer(embedded(1)) as server:
         settings = ModelSettings(name="openai:embeddde", base_url=server.url)
         wrong = config().model_copy(update={"model": settings})
         with pytest.raises(ModelNotFoundError):
@@ -160,7 +169,7 @@ learn(config(sys.argv[2]), Path(sys.argv[3]))
 def test_a_run_that_is_killed_among_faults_ends_as_if_nothing_had_been(tmp_path: Path) -> None:
     learn(config(), tmp_path / "direct")
     run = tmp_path / "run"
-    with VlmServer(EmbeddedModel(1), ServerSettings(faults=FAULTS)) as server:
+    with VlmServer(embedded(1), ServerSettings(faults=FAULTS)) as server:
         command = [sys.executable, "-c", _LEARNER, str(Path(__file__).parent), server.url, str(run)]
         process = subprocess.Popen(command)
         try:

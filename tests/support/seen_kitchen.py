@@ -9,7 +9,11 @@ from typing import Any
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.scene_reader import read_burger_scene
-from skillwrapper.embedded import EmbeddedModel, NoiseProfile
+from skillwrapper.domains.burger.states import HAND, ITEMS, TABLE, BurgerState
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.embedded import EmbeddedModel, NoiseProfile, noise_profile
+from skillwrapper.embedded.lexicon import Lexicon
+from skillwrapper.embedded.scene_graph import Box, SceneGraph, Thing
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.world import Observation, SkillInstance, Transition
 
@@ -45,6 +49,9 @@ class Kitchen:
             self._looks[state] = self.environment.observe_state(state)
         return self._looks[state]
 
+    def graph(self, state: Any) -> SceneGraph:
+        return read_once(self.look(state).pictures[0].png)
+
     def true_atoms(self, state: Any) -> set[Atom]:
         return {Atom(name, tuple(terms)) for name, terms in self.environment.true_atoms(state)}
 
@@ -66,8 +73,32 @@ read_once = lru_cache(maxsize=None)(read_burger_scene)
 """The scene reader, for all models of the tests together."""
 
 
+def sketch_graph(state: BurgerState) -> SceneGraph:
+    """What is to be seen in a state, without drawing it; everything in one place."""
+    kinds = {"robot": "robot", "stove": "station", "board": "station", "a_table": "table"}
+    kinds |= dict.fromkeys(ITEMS, "item")
+    places = dict(zip(ITEMS, state.places, strict=True))
+    return SceneGraph(
+        tuple(Thing(n, kind, Box(0, 0, 9, 9), kind == "table") for n, kind in kinds.items()),
+        {
+            "held": {(item, "robot") for item, place in places.items() if place == HAND},
+            "on": {
+                (item, "a_table" if place == TABLE else place)
+                for item, place in places.items()
+                if place != HAND
+            },
+        },
+        {"lettuce": {"cut": state.cut}, "patty": {"cooked": state.cooked}},
+    )
+
+
+WORDS = tuple(words for words in (find_domain("burger").words,) if words)
+LEXICON = Lexicon(WORDS)
+"""What the embedded model can say of the kitchen."""
+
+
 def embedded_model(seed: int = 0, noise: NoiseProfile | None = None) -> EmbeddedModel:
-    return EmbeddedModel(seed, noise, readers=(read_once,))
+    return EmbeddedModel(seed, noise or noise_profile("none"), (read_once,), WORDS)
 
 
 @cache

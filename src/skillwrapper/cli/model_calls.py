@@ -20,6 +20,7 @@ from skillwrapper.cli.setting_options import (
     options_given,
     run_settings,
 )
+from skillwrapper.domains.eyesight import Eyesight
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FAULTS, FaultPlan
@@ -123,7 +124,9 @@ def vlm_server(
             typer.echo(f"{name:20} {summary}")
         return
     settings = ServerSettings(port, latency, FaultPlan.of_names(fault or (), faults, seed))
-    server = VlmServer(EmbeddedModel(seed), settings)
+    eyes = Eyesight.for_domain(None)
+    model = EmbeddedModel(seed, readers=eyes.readers, words=eyes.words)
+    server = VlmServer(model, settings)
     messages().print(
         f"serving the model 'embedded' at {server.url}; stop with Ctrl-C\n"
         f"try it: skillwrapper doctor --model openai:embedded --base-url {server.url}",

@@ -32,6 +32,7 @@ from typing import Any
 
 from skillwrapper.domains.loading import blamed, load_object
 from skillwrapper.embedded.sight import SceneReader
+from skillwrapper.embedded.words import Words, read_words
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.symbols import AbstractModel, Atom, Predicate
@@ -122,6 +123,19 @@ class DomainPackage:
         """Whether a key of the file names something."""
         return bool(getattr(self.entries, part))
 
+    def require(self, part: str, purpose: str) -> None:
+        """Make sure that a key of the file names something.
+
+        Args:
+            part: the key.
+            purpose: what it is needed for.
+
+        Raises:
+            ConfigurationError: if it does not.
+        """
+        if not self.has(part):
+            raise self._missing(part, purpose)
+
     def make_environment(self, drawing: str | None = None) -> Environment:
         """A new environment.
 
@@ -146,9 +160,9 @@ class DomainPackage:
         return reader
 
     @property
-    def words(self) -> Path | None:
-        """The file of words that the embedded model lacks; None if there is none."""
-        return self._file("words", "the embedded model") if self.has("words") else None
+    def words(self) -> Words | None:
+        """The words that the embedded model lacks; None if there are none."""
+        return read_words(self._file("words", "the embedded model")) if self.has("words") else None
 
     @property
     def expert(self) -> Expert:

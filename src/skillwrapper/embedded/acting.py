@@ -1,99 +1,137 @@
-"""Answering the next-action prompt: a guess at what brings the picture nearer to the goal."""
+"""Answering the next-action prompt: a guess at what brings the picture nearer to the goal.
+
+It sees what differs between the two pictures, and goes by what skills are called and what they
+are run on. It knows neither when a skill works nor what it brings about.
+"""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from skillwrapper.embedded.chance import Chance
-from skillwrapper.embedded.concepts import Concept
-from skillwrapper.embedded.lexicon import GENERAL_CONCEPTS
-from skillwrapper.embedded.noise import Judgement
-from skillwrapper.embedded.prompt_text import PromptText, WrittenCall
-from skillwrapper.embedded.scene import Scene
-from skillwrapper.embedded.sequencing import all_instances
+from skillwrapper.embedded.facts import Fact, Sort
+from skillwrapper.embedded.lexicon import Lexicon
+from skillwrapper.embedded.prompt_text import PromptText, WrittenCall, WrittenSkill
 from skillwrapper.embedded.sight import Sight
 
-_GIVES_UP = 0.03
 _LONGEST_PLAN = 4
+_BESIDE_THE_POINT = 0.02
+_TO_ITS_PLACE = 4.0
+_BY_ITS_NAME = 8.0
 _FAILED_BEFORE = 0.1
+_ENDINGS = ("ing", "ed", "en", "es", "e", "s", "d")
 
-_PLACES = ("on", "on_station", "on_table")
-_COMPARED = (*_PLACES, "holding", "cut", "cooked")
-_CONCEPTS = {c.key: c for c in GENERAL_CONCEPTS if c.key in _COMPARED}
 
-Looks = dict[str, frozenset[tuple[str, ...]]]
-"""Of every item, what is judged to be true of it: a concept and its arguments."""
+@dataclass(frozen=True)
+class Difference:
+    """Something that is otherwise in the goal's picture.
+
+    Attributes:
+        fact: what.
+        wanted: whether it is the case in the goal.
+    """
+
+    fact: Fact
+    wanted: bool
+
+    @property
+    def thing(self) -> str:
+        """The thing that is otherwise."""
+        return self.fact.things[0]
 
 
 def plan_actions(
-    prompt: PromptText,
-    now: Sight | None,
-    goal: Sight | None,
-    judgement: Judgement,
-    chance: Chance,
+    prompt: PromptText, now: Sight | None, goal: Sight | None, lexicon: Lexicon, chance: Chance
 ) -> str:
     """Name the differences, then skills on the things that differ."""
-    instances = all_instances(prompt)
-    if now is None or goal is None or not instances:
+    if now is None or goal is None or not prompt.instances:
         return "I cannot make out the pictures.\n\nImpossible"
-    seen, wanted = looks(now, judgement), looks(goal, judgement)
-    differing = differing_things(seen, wanted)
-    if not differing:
+    found = differences(now, goal, lexicon)
+    if not found:
         return "Everything is as in the goal picture.\n\nDone"
-    reasoning = f"What differs from the goal: {', '.join(sorted(differing))}."
-    if chance.happens(_GIVES_UP):
-        return f"{reasoning} I see no way to get there.\n\nImpossible"
-    failed = {str(call) for call in prompt.calls("Run so far")[-1:]} if _last_failed(prompt) else {}
+    reasoning = f"What differs from the goal: {', '.join(sorted({d.thing for d in found}))}."
+    if any(_can_only_be_undone(d, prompt.skills, lexicon) for d in found):
+        return f"{reasoning} No skill is there to turn that back.\n\nImpossible"
+    failed = set(_failed_lately(prompt))
     weights = [
-        _weight(call, differing, wanted) * (_FAILED_BEFORE if str(call) in failed else 1)
-        for call in instances
+        _weight(call, found, lexicon) * (_FAILED_BEFORE if str(call) in failed else 1)
+        for call in prompt.instances
     ]
-    steps = [chance.pick_weighted(instances, weights) for _ in range(_LONGEST_PLAN)]
+    steps = [chance.pick_weighted(prompt.instances, weights) for _ in range(_LONGEST_PLAN)]
     plan = [str(a) for a, b in zip(steps, [None, *steps], strict=False) if a != b]
     return "\n".join([reasoning, "", *plan, "Done"])
 
 
-def looks(sight: Sight, judgement: Judgement) -> Looks:
-    """Where every item lies, who holds it and how it looks, as the model judges it."""
-    return {
-        name: frozenset(
-            (key, *arguments)
-            for key, concept in _CONCEPTS.items()
-            for arguments in _arguments(concept, name, sight.scene)
-            if judgement.truth(concept, sight, arguments)
-        )
-        for name in sight.scene.names("item")
-    }
+def differences(now: Sight, goal: Sight, lexicon: Lexicon) -> tuple[Difference, ...]:
+    """What seems to look, lie or be held otherwise in the goal's picture."""
+    facts = dict.fromkeys((*_facts(now, lexicon), *_facts(goal, lexicon)))
+    return tuple(
+        Difference(fact, wanted)
+        for fact in facts
+        if (wanted := goal.holds(fact)) is not now.holds(fact)
+    )
 
 
-def differing_things(now: Looks, goal: Looks) -> frozenset[str]:
-    """Things that lie elsewhere, are held otherwise or look different in the goal."""
-    nothing: frozenset[tuple[str, ...]] = frozenset()
-    names = {*now, *goal}
-    return frozenset(name for name in names if now.get(name, nothing) != goal.get(name, nothing))
+def _facts(sight: Sight, lexicon: Lexicon) -> Iterator[Fact]:
+    """All that might be the case of things that have names."""
+    for thing in sight.graph.things:
+        if thing.scenery:
+            continue
+        for attribute in sight.graph.attributes.get(thing.name, ()):
+            yield Fact(Sort.ATTRIBUTE, attribute, (thing.name,))
+        for relation in sight.graph.outline.relations:
+            yield from lexicon.relation(relation).facts_of(sight, thing.name)
 
 
-def _arguments(concept: Concept, name: str, scene: Scene) -> Iterator[tuple[str, ...]]:
-    """Arguments with which a concept is about an item, the first one of its own kind."""
-    own = concept.kinds.index("item")
-    others = [
-        (name,) if place == own else tuple(n for n in scene.names(kind) if n != name)
-        for place, kind in enumerate(concept.kinds)
-    ]
-    return itertools.product(*others)
+def _weight(call: WrittenCall, found: Sequence[Difference], lexicon: Lexicon) -> float:
+    """Skills on things that differ come to mind, most of all those named for it."""
+    own = [difference for difference in found if difference.thing in call.arguments]
+    weight = 1.0 if own else _BESIDE_THE_POINT
+    for difference in own:
+        if difference.fact.sort is Sort.ATTRIBUTE:
+            named = _is_named_for(call.name, difference, lexicon)
+            weight = max(weight, _BY_ITS_NAME if named else 0)
+        elif difference.wanted and difference.fact.things[1] in call.arguments:
+            weight = max(weight, _TO_ITS_PLACE)
+    return weight
 
 
-def _weight(call: WrittenCall, differing: frozenset[str], goal: Looks) -> float:
-    """Skills on things that differ come to mind, most of all with where they are to lie."""
-    moved = [name for name in call.arguments if name in differing]
-    if not moved:
-        return 0.02
-    looks_like = (look for name in moved for look in goal.get(name, ()))
-    places = {place for key, *rest in looks_like if key in _PLACES for place in rest[1:]}
-    return 4.0 if places & set(call.arguments) else 1.0
+def _can_only_be_undone(
+    difference: Difference, skills: Sequence[WrittenSkill], lexicon: Lexicon
+) -> bool:
+    """Whether a skill is named for the opposite of what is wanted, and none for what is."""
+    if difference.fact.sort is not Sort.ATTRIBUTE:
+        return False
+    opposite = Difference(difference.fact, not difference.wanted)
+    wanted, unwanted = (
+        any(_is_named_for(skill.name, one, lexicon) for skill in skills)
+        for one in (difference, opposite)
+    )
+    return unwanted and not wanted
 
 
-def _last_failed(prompt: PromptText) -> bool:
-    lines = [line for line in prompt.lines("Run so far") if line.startswith("- ")]
-    return bool(lines) and lines[-1].endswith("failed")
+def _is_named_for(skill: str, difference: Difference, lexicon: Lexicon) -> bool:
+    """Whether a skill's name has a word for what is wanted, whatever its ending."""
+    words = lexicon.words.attribute(difference.fact.name)
+    names = words.names if difference.wanted else words.opposite.names
+    stems = {_stem(word) for name in names for word in name.split("_")}
+    return not stems.isdisjoint(map(_stem, re.findall(r"[a-z]+|[A-Z][a-z]*", skill)))
+
+
+def _stem(word: str) -> str:
+    word = word.casefold()
+    for ending in _ENDINGS:
+        if word.endswith(ending) and len(word) - len(ending) >= 3:
+            return word.removesuffix(ending)
+    return word
+
+
+def _failed_lately(prompt: PromptText) -> Iterator[str]:
+    """What failed since something last succeeded."""
+    for line in reversed(prompt.lines("Run so far")):
+        if line.startswith("- "):
+            if not line.endswith("failed"):
+                return
+            yield line.removeprefix("- ").removesuffix(" failed")

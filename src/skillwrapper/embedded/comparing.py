@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from skillwrapper.embedded.concepts import Concept
-from skillwrapper.embedded.lexicon import all_concepts
-from skillwrapper.embedded.noise import Judgement
+from skillwrapper.embedded.lexicon import Lexicon
 from skillwrapper.embedded.prompt_text import PromptText
 from skillwrapper.embedded.sight import Sight
 
@@ -48,25 +47,25 @@ class Comparison:
 
     Args:
         prompt: the invention prompt; its allowed parameters and skill are used.
-        judgement: how concepts are judged.
+        lexicon: the concepts.
     """
 
-    def __init__(self, prompt: PromptText, judgement: Judgement) -> None:
-        self._prompt, self._judgement = prompt, judgement
+    def __init__(self, prompt: PromptText, lexicon: Lexicon) -> None:
+        self._prompt, self._lexicon = prompt, lexicon
         self._skill_types = prompt.skills[0].types if prompt.skills else ()
 
     def of_situations(self, first: Views, second: Views) -> Iterator[Idea]:
         """Concepts of the arguments, telling if they hold before one execution only."""
         for concept, types, places in self._choices(first):
-            one = self._truth(concept, first.before, first.arguments, places)
-            two = self._truth(concept, second.before, second.arguments, places)
+            one = _truth(concept, first.before, first.arguments, places)
+            two = _truth(concept, second.before, second.arguments, places)
             yield Idea(concept, types, one is not None and two is not None and one is not two)
 
     def of_changes(self, success: Views, failure: Views) -> Iterator[Idea]:
         """Concepts of the arguments, telling if they change in the success only."""
         for concept, types, places in self._choices(success):
-            changed = self._changed(concept, success, places)
-            yield Idea(concept, types, changed and not self._changed(concept, failure, places))
+            changed = _changed(concept, success, places)
+            yield Idea(concept, types, changed and not _changed(concept, failure, places))
 
     def of_relations(self, views: Views, others: Iterable[str]) -> Iterator[Idea]:
         """Relations between an argument and one of the others, telling if they change."""
@@ -76,14 +75,14 @@ class Comparison:
             for pair in ((argument, other), (other, argument)):
                 types = self._types_of(pair, views.arguments)
                 for concept in self._concepts(views.before, pair) if types else ():
-                    was = self._judgement.truth(concept, views.before, pair)
-                    now = self._judgement.truth(concept, views.after, pair)
+                    was = concept.truth(views.before, pair)
+                    now = concept.truth(views.after, pair)
                     yield Idea(concept, types, None not in {was, now} and was is not now)
 
     def _choices(self, views: Views) -> Iterator[tuple[Concept, tuple[str, ...], tuple[int, ...]]]:
-        """Concepts for every choice of up to two of the skill's parameters."""
+        """Concepts for every choice of at most two of the skill's parameters."""
         positions = range(min(len(views.arguments), len(self._skill_types)))
-        for count in (1, 2):
+        for count in (0, 1, 2):
             for places in itertools.permutations(positions, count):
                 types = tuple(self._skill_types[place] for place in places)
                 if all(name in self._prompt.allowed for name in types):
@@ -92,21 +91,9 @@ class Comparison:
                         yield concept, types, places
 
     def _concepts(self, sight: Sight, names: Sequence[str]) -> Iterator[Concept]:
-        kinds = [sight.scene.kind(name) for name in names]
-        places = [name for name in sight.scene.names("station") if name not in names]
-        return (c for c in all_concepts(places) if all(kinds) and c.fits(kinds))
-
-    def _truth(
-        self, concept: Concept, sight: Sight, arguments: tuple[str, ...], places: tuple[int, ...]
-    ) -> bool | None:
-        return self._judgement.truth(concept, sight, tuple(arguments[p] for p in places))
-
-    def _changed(self, concept: Concept, views: Views, places: tuple[int, ...]) -> bool:
-        if views.after is None:
-            return False
-        was = self._truth(concept, views.before, views.arguments, places)
-        now = self._truth(concept, views.after, views.arguments, places)
-        return None not in {was, now} and was is not now
+        kinds = [sight.graph.kind(name) for name in names]
+        concepts = self._lexicon.concepts(sight.graph.outline)
+        return (c for c in concepts if all(kinds) and c.fits(kinds))
 
     def _types_of(self, pair: tuple[str, str], arguments: tuple[str, ...]) -> tuple[str, ...]:
         """Allowed types for two objects; empty if one has none or a type is used too often."""
@@ -126,3 +113,17 @@ class Comparison:
         """The type that most objects have."""
         held = list(self._prompt.objects.values())
         return max(types, key=lambda name: (sum(name in has for has in held), name))
+
+
+def _truth(
+    concept: Concept, sight: Sight, arguments: tuple[str, ...], places: tuple[int, ...]
+) -> bool | None:
+    return concept.truth(sight, tuple(arguments[place] for place in places))
+
+
+def _changed(concept: Concept, views: Views, places: tuple[int, ...]) -> bool:
+    if views.after is None:
+        return False
+    was = _truth(concept, views.before, views.arguments, places)
+    now = _truth(concept, views.after, views.arguments, places)
+    return None not in {was, now} and was is not now

@@ -7,10 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from skillwrapper.embedded.chance import Chance
 from skillwrapper.embedded.comparing import Comparison, Idea, Views
-from skillwrapper.embedded.lexicon import all_concepts, understand
-from skillwrapper.embedded.noise import Judgement
+from skillwrapper.embedded.lexicon import Lexicon
 from skillwrapper.embedded.prompt_text import PromptText, WrittenPredicate, covers
-from skillwrapper.embedded.sight import Sight, Sights, sight_at
+from skillwrapper.embedded.sight import Sight, Sights, first_sight, sight_at
 
 _LOCAL_MASS = 3.0
 """Weight of all local concepts together, against 1 for all others together."""
@@ -22,18 +21,17 @@ _OPENINGS = (
 )
 
 
-def invent(prompt: PromptText, sights: Sights, judgement: Judgement, chance: Chance) -> str:
+def invent(prompt: PromptText, sights: Sights, lexicon: Lexicon, chance: Chance) -> str:
     """Propose predicates for an inconsistency."""
-    ideas = list(_compare(prompt, sights, Comparison(prompt, judgement)))
-    return _reply(prompt, sights, ideas, chance)
+    ideas = list(_compare(prompt, sights, Comparison(prompt, lexicon)))
+    return _reply(prompt, _Writer(prompt, sights, lexicon), ideas, chance)
 
 
-def invent_vocabulary(
-    prompt: PromptText, sights: Sights, judgement: Judgement, chance: Chance
-) -> str:
+def invent_vocabulary(prompt: PromptText, sights: Sights, lexicon: Lexicon, chance: Chance) -> str:
     """Propose predicates for anything that varies between many pictures."""
     seen = [sight for sight in sights if sight is not None]
-    return _reply(prompt, sights, list(_varying(prompt, seen, judgement)), chance)
+    ideas = list(_varying(prompt, seen, lexicon))
+    return _reply(prompt, _Writer(prompt, sights, lexicon), ideas, chance)
 
 
 def _compare(prompt: PromptText, sights: Sights, comparison: Comparison) -> Iterator[Idea]:
@@ -64,17 +62,17 @@ def _views(prompt: PromptText, sights: Sights, number: int) -> Views | None:
     return Views(call.arguments, before, after) if before is not None else None
 
 
-def _varying(prompt: PromptText, sights: Sequence[Sight], judgement: Judgement) -> Iterator[Idea]:
+def _varying(prompt: PromptText, sights: Sequence[Sight], lexicon: Lexicon) -> Iterator[Idea]:
     """Concepts over the widest types of one kind of thing, telling if they vary."""
     if not sights:
         return
-    scene = sights[0].scene
+    graph = sights[0].graph
     by_kind: dict[str, list[str]] = {}
     for name in prompt.objects:
-        by_kind.setdefault(scene.kind(name), []).append(name)
-    for concept in all_concepts(scene.names("station")):
+        by_kind.setdefault(graph.kind(name), []).append(name)
+    for concept in lexicon.concepts(graph.outline):
         kinds = [kind for kind in by_kind if kind]
-        for chosen in itertools.product(kinds, repeat=len(concept.kinds)):
+        for chosen in itertools.product(kinds, repeat=concept.arity):
             if not concept.fits(chosen):
                 continue
             groundings = [
@@ -83,8 +81,7 @@ def _varying(prompt: PromptText, sights: Sequence[Sight], judgement: Judgement) 
                 if len(set(names)) == len(names)
             ]
             values = {
-                names: {judgement.truth(concept, sight, names) for sight in sights}
-                for names in groundings
+                names: {concept.truth(sight, names) for sight in sights} for names in groundings
             }
             varying = [names for names, seen in values.items() if {True, False} <= seen]
             types = _smallest_types(prompt, varying or groundings, len(chosen))
@@ -107,9 +104,8 @@ def _smallest_types(
     return tuple(types)
 
 
-def _reply(prompt: PromptText, sights: Sights, ideas: Sequence[Idea], chance: Chance) -> str:
+def _reply(prompt: PromptText, writer: _Writer, ideas: Sequence[Idea], chance: Chance) -> str:
     count = prompt.number(_COUNT, 1)
-    writer = _Writer(prompt, sights)
     fresh = [idea for idea in dict.fromkeys(ideas) if writer.is_fresh(idea)]
     # If nothing that is new tells the situations apart, say something all the same: people do.
     telling = [idea for idea in fresh if idea.telling] or fresh
@@ -131,10 +127,10 @@ def _weights(ideas: Sequence[Idea]) -> list[float]:
     """By salience, scaled so that local concepts together have a fixed share."""
     mass = {True: 0.0, False: 0.0}
     for idea in ideas:
-        mass[idea.concept.local] += idea.concept.salience
+        mass[idea.concept.local] += idea.concept.wording.salience
     share = {True: _LOCAL_MASS, False: 1.0}
     return [
-        idea.concept.salience * share[idea.concept.local] / mass[idea.concept.local]
+        idea.concept.wording.salience * share[idea.concept.local] / mass[idea.concept.local]
         for idea in ideas
     ]
 
@@ -142,9 +138,9 @@ def _weights(ideas: Sequence[Idea]) -> list[float]:
 class _Writer:
     """Puts ideas into words, and knows which are taken."""
 
-    def __init__(self, prompt: PromptText, sights: Sights) -> None:
-        self._prompt = prompt
-        self._seen = next((sight for sight in sights if sight is not None), None)
+    def __init__(self, prompt: PromptText, sights: Sights, lexicon: Lexicon) -> None:
+        self._prompt, self._lexicon = prompt, lexicon
+        self._seen = first_sight(sights)
         self._known = self._ideas_of("Known predicates")
         self._rejected = self._ideas_of("Rejected candidates")
         self._taken = {p.name for title in ("Known predicates", "Rejected candidates")
@@ -160,16 +156,29 @@ class _Writer:
 
     def write(self, idea: Idea, chance: Chance) -> str:
         """The line that proposes it; a known predicate for other types keeps its name."""
-        concept = idea.concept
+        wording = idea.concept.wording
         parameters = ", ".join(f"?{name}" for name in idea.types)
         for meant, predicate in self._known:
-            if meant == concept.idea and len(predicate.types) == len(idea.types):
+            if meant == idea.concept.idea and self._are_alike(predicate.types, idea.types):
                 return f"{predicate.name}({parameters}): {predicate.semantics}"
-        free = [name for name in concept.names if name not in self._taken]
-        name = chance.pick(free) if free else f"{concept.key}_{len(self._taken)}"
+        free = [name for name in wording.names if name not in self._taken]
+        name = chance.pick(free or wording.names)
+        name = name if free else f"{name}_{len(self._taken)}"
         self._taken.add(name)
-        meaning = concept.describe(chance.pick(concept.meanings), idea.types)
+        meaning = idea.concept.describe(chance.pick(wording.meanings), idea.types)
         return f"{name}({parameters}): {meaning}."
+
+    def _are_alike(self, types: Sequence[str], others: Sequence[str]) -> bool:
+        """Whether, parameter by parameter, one type has all objects of both."""
+        return len(types) == len(others) and all(
+            bool(self._types_of_all(one, other)) for one, other in zip(types, others, strict=True)
+        )
+
+    def _types_of_all(self, *types: str) -> frozenset[str]:
+        """The types that all objects of any of the given types have."""
+        objects = self._prompt.objects.values()
+        having = [has for has in objects if not has.isdisjoint(types)]
+        return frozenset.intersection(*having) if having else frozenset()
 
     def _ideas_of(self, title: str) -> list[tuple[str, WrittenPredicate]]:
         found = []
@@ -182,12 +191,10 @@ class _Writer:
     def _understand(self, predicate: WrittenPredicate) -> str | None:
         if self._seen is None:
             return None
-        scene = self._seen.scene
+        graph = self._seen.graph
         kinds = []
         for type_name in predicate.types:
             having = [n for n, types in self._prompt.objects.items() if type_name in types]
-            kinds.append(next((scene.kind(name) for name in having if name in scene), ""))
-        meant = understand(
-            predicate.name, tuple(kinds), predicate.semantics, scene.names("station")
-        )
+            kinds.append(next((graph.kind(name) for name in having if name in graph), ""))
+        meant = self._lexicon.understand(predicate.name, kinds, predicate.semantics, graph)
         return meant.concept.idea if meant else None

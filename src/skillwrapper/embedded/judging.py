@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillwrapper.embedded.chance import Chance
-from skillwrapper.embedded.lexicon import Understanding, understand
-from skillwrapper.embedded.noise import Judgement
+from skillwrapper.embedded.facts import Fact, Sort
+from skillwrapper.embedded.lexicon import Lexicon, Understanding
 from skillwrapper.embedded.prompt_text import PromptText, WrittenCall
 from skillwrapper.embedded.sight import Sight
 from skillwrapper.symbols.predicates import Atom
@@ -21,12 +21,11 @@ _GROUPS = {True: "True:", False: "False:", None: "Unsure:"}
 _LABELS = {True: "true", False: "false", None: "unsure"}
 
 
-def judge_picture(
-    prompt: PromptText, sight: Sight | None, judgement: Judgement, chance: Chance
-) -> str:
+def judge_picture(prompt: PromptText, sight: Sight | None, lexicon: Lexicon, chance: Chance) -> str:
     """Describe the picture, then judge every statement, in one of several manners."""
-    verdicts = [(str(call), verdict) for call, verdict in _verdicts(prompt, sight, judgement)]
-    description = describe(sight) if sight else "I do not recognise what this picture shows."
+    verdicts = [(str(call), verdict) for call, verdict in _verdicts(prompt, sight, lexicon)]
+    unknown = "I do not recognise what this picture shows."
+    description = describe(sight, lexicon) if sight else unknown
     style = chance.below(len(_WORDINGS) + 1)
     if style == len(_WORDINGS):
         return f"{description}\n\n{_grouped(verdicts)}"
@@ -34,18 +33,22 @@ def judge_picture(
     return "\n".join([description, "", *(wording[v].format(call) for call, v in verdicts)])
 
 
-def describe(sight: Sight) -> str:
-    """What is where, in sentences that name no predicate."""
-    scene = sight.scene
+def describe(sight: Sight, lexicon: Lexicon) -> str:
+    """What seems to be where, in sentences that name no predicate."""
     sentences = []
-    for robot in scene.names("robot"):
-        held = " and ".join(f"the {name}" for name in scene.held_by(robot))
-        sentences.append(f"I see the {robot}; over its head there is {held or 'nothing'}.")
-    for upper, lower in sorted(scene.on.items()):
-        looks = " and ".join(sorted(scene.attributes.get(upper, ())))
-        seen = f"The {upper}, {looks}," if looks else f"The {upper}"
-        sentences.append(f"{seen} is seen on the {lower.replace('_', ' ')}.")
-    return " ".join(sentences)
+    for thing in sight.graph.things:
+        looks = [a for a in sorted(sight.graph.attributes.get(thing.name, ()))
+                 if sight.holds(Fact(Sort.ATTRIBUTE, a, (thing.name,)))]  # fmt: skip
+        places = [
+            f"{relation} the {fact.things[1]}"
+            for relation in sight.graph.outline.relations
+            for fact in lexicon.relation(relation).facts_of(sight, thing.name)
+            if sight.holds(fact)
+        ]
+        if (looks or places) and not thing.scenery:
+            seen = ", ".join((*looks, *places)).replace("_", " ")
+            sentences.append(f"I see the {thing.name}: {seen}.")
+    return " ".join(sentences) or "I see nothing that stands out."
 
 
 def summarise(prompt: PromptText) -> str:
@@ -56,33 +59,32 @@ def summarise(prompt: PromptText) -> str:
 
 
 def _verdicts(
-    prompt: PromptText, sight: Sight | None, judgement: Judgement
+    prompt: PromptText, sight: Sight | None, lexicon: Lexicon
 ) -> Iterator[tuple[WrittenCall, bool | None]]:
     statements = prompt.calls("Statements")
-    meanings = _understandings(prompt, sight, statements) if sight else {}
+    meanings = _meanings(prompt, sight, statements, lexicon) if sight else {}
     for call in statements:
         meaning = meanings.get(call.name)
         if sight is None or meaning is None or len(meaning.order) != len(call.arguments):
             yield call, None
         else:
-            yield call, judgement.truth(meaning.concept, sight, meaning.arranged(call.arguments))
+            yield call, meaning.concept.truth(sight, meaning.arranged(call.arguments))
 
 
-def _understandings(
-    prompt: PromptText, sight: Sight, statements: Sequence[WrittenCall]
+def _meanings(
+    prompt: PromptText, sight: Sight, statements: Sequence[WrittenCall], lexicon: Lexicon
 ) -> dict[str, Understanding]:
     """What the predicates of the statements mean; those not understood are left out."""
-    kinds: dict[str, tuple[str, ...]] = {}
+    said_of: dict[str, list[tuple[str, ...]]] = {}
     for call in statements:
-        if call.name not in kinds and all(name in sight.scene for name in call.arguments):
-            kinds[call.name] = tuple(sight.scene.kind(name) for name in call.arguments)
-    places = sight.scene.names("station")
+        said_of.setdefault(call.name, []).append(call.arguments)
     meanings = {}
     for predicate in prompt.predicates("Predicates"):
-        if predicate.name in kinds:
-            found = understand(predicate.name, kinds[predicate.name], predicate.semantics, places)
-            if found is not None:
-                meanings[predicate.name] = found
+        found = lexicon.meaning(
+            predicate.name, predicate.semantics, said_of.get(predicate.name, ()), sight.graph
+        )
+        if found is not None:
+            meanings[predicate.name] = found
     return meanings
 
 

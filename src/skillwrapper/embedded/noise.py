@@ -1,183 +1,181 @@
-"""Making the embedded model worse on purpose, in the ways real models are."""
+"""Noise profiles: in which ways, and how often, the embedded model is to err.
+
+Profiles are data: ``profiles/NAME.yaml``, or any file of that form.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from types import MappingProxyType
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
 
-from skillwrapper.embedded.chance import Chance
-from skillwrapper.embedded.concepts import Concept
-from skillwrapper.embedded.scene import Scene
-from skillwrapper.embedded.sight import Sight
+from pydantic import BaseModel, ConfigDict, Field
+
+from skillwrapper.embedded.facts import Sort
 from skillwrapper.errors import UnknownNameError
+from skillwrapper.files.yaml_documents import YamlDocument
+
+_FOLDER = Path(__file__).with_name("profiles")
+_NEAREST_SORT = {
+    Sort.RELATION_TO_KIND: Sort.RELATION,
+    Sort.VACANCY: Sort.RELATION,
+    Sort.PLACE: Sort.RELATION,
+    Sort.CONDITION: Sort.ATTRIBUTE,
+}
+"""As which other sort facts err if their own sort was not measured."""
 
 
-@dataclass(frozen=True)
-class ErrorRates:
-    """How often a concept is misjudged, over all pictures.
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class ErrorRates(_Part):
+    """How often facts are misread, over all pictures.
 
     Attributes:
         false_positive: share of the false ones that are taken to be true, 0 to 1.
         false_negative: share of the true ones that are taken to be false, 0 to 1.
     """
 
-    false_positive: float = 0.0
-    false_negative: float = 0.0
+    false_positive: float = Field(default=0.0, ge=0, le=1)
+    false_negative: float = Field(default=0.0, ge=0, le=1)
 
 
-@dataclass(frozen=True)
-class Confusion:
-    """Two things that are taken for each other in tall stacks.
+class FactErrors(_Part):
+    """How often facts of one class were read, and how often wrongly.
 
     Attributes:
-        first: name of one thing.
-        second: name of the other.
-        height: how many things such a stack has at least.
+        sort: of the facts.
+        name: of the relation, attribute or condition.
+        kinds: of the things concerned, as the scene reader calls them; none for any.
+        positives: readings of facts that were true.
+        false_negatives: how many of those were read as false.
+        negatives: readings of facts that were false.
+        false_positives: how many of those were read as true.
+    """
+
+    sort: Sort
+    name: str
+    kinds: tuple[str, ...] = ()
+    positives: int = Field(default=0, ge=0)
+    false_negatives: int = Field(default=0, ge=0)
+    negatives: int = Field(default=0, ge=0)
+    false_positives: int = Field(default=0, ge=0)
+
+
+class Exchange(_Part):
+    """Look-alikes that are taken for each other in tall stacks.
+
+    Attributes:
+        height: how many things of their kind such a stack has at least.
         rate: share of the pictures with errors in which it happens.
     """
 
-    first: str
-    second: str
-    height: int
-    rate: float
+    height: int = Field(default=3, ge=2)
+    rate: float = Field(default=0.0, ge=0, le=1)
 
 
-@dataclass(frozen=True)
-class NoiseProfile:
+class NoiseProfile(_Part):
     """What goes wrong and how often.
-
-    Errors of judgement depend on the picture and the statement alone: who asks again gets the
-    same error. Spoilt replies and timeouts depend on the prompt.
 
     Attributes:
         name: of the profile.
-        rates: error rates by the idea of a concept, e.g. ``hand_empty``.
-        other_rates: error rates of all other ideas.
-        clean_pictures: share of pictures without any error of judgement; the errors are in
+        source: where the figures come from.
+        facts: how often facts were misread; others err like those nearest to them.
+        other: error rates of facts that have none near.
+        clean_pictures: share of pictures in which every fact is seen rightly; the errors are in
             the others, as often as the rates over all pictures ask for.
-        confusions: things taken for each other.
+        due_to_picture: share of an error that is due to the picture, and is made whenever the
+            fact is asked for; the rest is drawn anew for every question.
+        exchange: look-alikes taken for each other.
         malformed: share of replies that break off or are nonsense.
         wrong_names: share of replies in which a name is misspelt.
         timeouts: share of calls that time out; they are repeated.
     """
 
-    name: str
-    rates: Mapping[str, ErrorRates] = field(default_factory=dict)
-    other_rates: ErrorRates = field(default_factory=ErrorRates)
-    clean_pictures: float = 0.0
-    confusions: tuple[Confusion, ...] = ()
-    malformed: float = 0.0
-    wrong_names: float = 0.0
-    timeouts: float = 0.0
+    name: str = ""
+    source: str = ""
+    facts: tuple[FactErrors, ...] = ()
+    other: ErrorRates = ErrorRates()
+    clean_pictures: float = Field(default=0.0, ge=0, lt=1)
+    due_to_picture: float = Field(default=1.0, ge=0, le=1)
+    exchange: Exchange = Exchange()
+    malformed: float = Field(default=0.0, ge=0, le=1)
+    wrong_names: float = Field(default=0.0, ge=0, le=1)
+    timeouts: float = Field(default=0.0, ge=0, le=1)
+
+    def rates(self, sort: Sort, name: str, kinds: tuple[str, ...]) -> ErrorRates:
+        """Error rates of a class of facts, over all pictures: its own, or of those nearest."""
+        for near in self._nearest(sort, name, kinds):
+            if near:
+                return _pooled(near)
+        return self.other
+
+    def _nearest(self, sort: Sort, name: str, kinds: tuple[str, ...]) -> Iterator[list[FactErrors]]:
+        """Classes of measured facts, from the same to those that are at least of a like sort."""
+        if sort is Sort.RELATION_TO_KIND:
+            sort = Sort.RELATION
+        like = [f for f in self.facts if f.sort is sort]
+        named = [f for f in like if f.name == name]
+        yield [f for f in named if f.kinds == kinds]
+        yield [f for f in named if not f.kinds]
+        yield [f for f in named if len(set(f.kinds)) == len(set(kinds))]
+        yield named
+        yield like
+        yield [f for f in self.facts if f.sort is _NEAREST_SORT.get(sort)]
 
 
-NO_NOISE = NoiseProfile("none")
-
-# Counts of wrong readings that were measured on a real model (DESIGN.md section 6): 138
-# pictures, false positives and false negatives over all readings. How many of the readings were
-# true was recorded for cut (39) and cooked (37). For the others it is taken from the share of
-# true ones in all reachable states: 85 of 138 for an empty hand, 53 of 552 for holding, 333 of
-# 552 for clear, 219 of 1656 for stacked, 166 of 1104 for on a station. For stacked, 5 of the 18
-# and 5 of the 22 errors are left to the exchanged buns.
-_GPT5 = NoiseProfile(
-    name="gpt5",
-    rates=MappingProxyType(
-        {
-            "hand_empty": ErrorRates(0.0, 1 / 85),
-            "holding": ErrorRates(1 / 499, 0.0),
-            "clear": ErrorRates(10 / 219, 6 / 333),
-            "on": ErrorRates(13 / 1437, 17 / 219),
-            "on_station": ErrorRates(12 / 938, 5 / 166),
-            "cut": ErrorRates(11 / 99, 1 / 39),
-            "cooked": ErrorRates(28 / 101, 0.0),
-        }
-    ),
-    clean_pictures=90 / 138,
-    confusions=(Confusion("topbun", "bottombun", 3, 0.3),),
-)
-
-PROFILES: Mapping[str, NoiseProfile] = MappingProxyType({p.name: p for p in (NO_NOISE, _GPT5)})
-"""The profiles that can be chosen by name."""
+NO_NOISE = NoiseProfile(name="none")
 
 
 def noise_profile(name: str) -> NoiseProfile:
-    """The profile of a name, or of a rate such as ``0.05``: every judgement errs so often.
+    """The profile of a name, of a file, or of a rate such as ``0.05``: every fact errs so often.
 
     Raises:
         UnknownNameError: if there is none.
+        ConfigurationError: if the file is not a profile.
     """
     if re.fullmatch(r"0?\.\d+", name):
-        return NoiseProfile(name, other_rates=ErrorRates(float(name), float(name)))
-    if name not in PROFILES:
-        raise UnknownNameError("noise profile", name, PROFILES)
-    return PROFILES[name]
+        rate = float(name)
+        return NoiseProfile(name=name, other=ErrorRates(false_positive=rate, false_negative=rate))
+    if name.endswith((".yaml", ".yml")):
+        return read_profile(Path(name))
+    if name not in profile_names():
+        raise UnknownNameError("noise profile", name, profile_names())
+    return _bundled(name)
 
 
-class Judgement:
-    """Judges concepts, wrongly as often as the profile says.
+def read_profile(path: Path) -> NoiseProfile:
+    """The profile in a file; its name tells what stands in it.
 
-    Args:
-        profile: what goes wrong.
-        seed: models with different seeds make different errors.
+    Raises:
+        ConfigurationError: if it is missing or not a profile; names file and line.
     """
-
-    def __init__(self, profile: NoiseProfile, seed: int) -> None:
-        self._profile, self._seed = profile, seed
-
-    def truth(self, concept: Concept, sight: Sight, arguments: tuple[str, ...]) -> bool | None:
-        """Whether a concept holds, as this model sees it."""
-        if self._profile is NO_NOISE or self._is_clean(sight):
-            return concept.truth(sight, arguments)
-        truth = concept.truth(self._confused(sight), arguments)
-        if truth is None:
-            return None
-        idea = truth is concept.positive
-        wrong = self._errs(concept.idea, idea, sight, arguments)
-        return truth is not wrong
-
-    def _is_clean(self, sight: Sight) -> bool:
-        share = self._profile.clean_pictures
-        return Chance(self._seed, "clean", sight.key).happens(share)
-
-    def _errs(self, idea: str, holds: bool, sight: Sight, arguments: tuple[str, ...]) -> bool:
-        rates = self._profile.rates.get(idea, self._profile.other_rates)
-        overall = rates.false_negative if holds else rates.false_positive
-        rate = min(1.0, overall / max(1e-9, 1 - self._profile.clean_pictures))
-        return Chance(self._seed, "error", sight.key, idea, *arguments).happens(rate)
-
-    def _confused(self, sight: Sight) -> Sight:
-        for confusion in self._profile.confusions:
-            chance = Chance(self._seed, "confusion", sight.key, confusion.first, confusion.second)
-            if chance.happens(confusion.rate) and _is_tall(sight.scene, confusion):
-                scene = exchanged(sight.scene, confusion.first, confusion.second)
-                sight = replace(sight, scene=scene)
-        return sight
+    profile = YamlDocument.read(path).validate(NoiseProfile)
+    digest = hashlib.sha256(profile.model_dump_json(exclude={"name"}).encode()).hexdigest()
+    return profile.model_copy(update={"name": f"{path.stem}-{digest[:12]}"})
 
 
-def _is_tall(scene: Scene, confusion: Confusion) -> bool:
-    """Whether both are part of one stack that is tall enough."""
-    stacks = [
-        (item, *(n for n in scene.supports(item) if scene.kind(n) == "item"))
-        for item in scene.names("item")
-    ]
-    return any(
-        len(stack) >= confusion.height and {confusion.first, confusion.second} <= set(stack)
-        for stack in stacks
+def profile_names() -> tuple[str, ...]:
+    """The profiles that can be chosen by name."""
+    return tuple(sorted(path.stem for path in _FOLDER.glob("*.yaml")))
+
+
+@cache
+def _bundled(name: str) -> NoiseProfile:
+    document = YamlDocument.read(_FOLDER / f"{name}.yaml")
+    return document.validate(NoiseProfile).model_copy(update={"name": name})
+
+
+def _pooled(several: list[FactErrors]) -> ErrorRates:
+    return ErrorRates(
+        false_positive=_share(several, "false_positives", "negatives"),
+        false_negative=_share(several, "false_negatives", "positives"),
     )
 
 
-def exchanged(scene: Scene, first: str, second: str) -> Scene:
-    """The scene with two things taken for each other."""
-    swap = {first: second, second: first}
-
-    def name_of(name: str) -> str:
-        return swap.get(name, name)
-
-    return Scene(
-        things=tuple(replace(thing, name=name_of(thing.name)) for thing in scene.things),
-        on={name_of(upper): name_of(lower) for upper, lower in scene.on.items()},
-        held={name_of(item): robot for item, robot in scene.held.items()},
-        attributes={name_of(item): found for item, found in scene.attributes.items()},
-    )
+def _share(several: list[FactErrors], wrong: str, read: str) -> float:
+    total = sum(getattr(one, read) for one in several)
+    return sum(getattr(one, wrong) for one in several) / total if total else 0.0

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image, UnidentifiedImageError
 
-from skillwrapper.embedded.scene import Box
+from skillwrapper.embedded.scene_graph import Box
 from skillwrapper.errors import PictureError
 
 Pixels = npt.NDArray[np.uint8]

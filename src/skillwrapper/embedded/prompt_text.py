@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -41,10 +42,17 @@ class WrittenCall:
 
 @dataclass(frozen=True)
 class WrittenSkill:
-    """A skill as a prompt has it: the type of each of its parameters."""
+    """A skill as a prompt has it.
+
+    Attributes:
+        name: of the skill.
+        types: the type of each of its parameters.
+        text: all that is written of it: its name, what it does, the roles of its parameters.
+    """
 
     name: str
     types: tuple[str, ...]
+    text: str = ""
 
 
 @dataclass(frozen=True)
@@ -96,14 +104,28 @@ class PromptText:
     @cached_property
     def skills(self) -> tuple[WrittenSkill, ...]:
         """The skills, from ``Skills`` or ``Skill``."""
-        skills: list[tuple[str, list[str]]] = []
+        skills: list[tuple[str, list[str], list[str]]] = []
         for line in (*self.lines("Skills"), *self.lines("Skill")):
             head, parameter = _SKILL.match(line), _PARAMETER.match(line)
             if head:
-                skills.append((head.group(1), []))
+                skills.append((head.group(1), [], []))
             elif parameter and skills:
                 skills[-1][1].append(parameter.group(2))
-        return tuple(WrittenSkill(name, tuple(types)) for name, types in skills)
+            if skills:
+                skills[-1][2].append(line)
+        return tuple(
+            WrittenSkill(name, tuple(types), "\n".join(text)) for name, types, text in skills
+        )
+
+    @cached_property
+    def instances(self) -> tuple[WrittenCall, ...]:
+        """All skills on all objects of the right types, in the order of the prompt."""
+        return tuple(
+            WrittenCall(skill.name, names)
+            for skill in self.skills
+            for names in itertools.permutations(self.objects, len(skill.types))
+            if all(t in self.objects[n] for t, n in zip(skill.types, names, strict=True))
+        )
 
     def predicates(self, title: str) -> tuple[WrittenPredicate, ...]:
         """The predicates listed in a section."""

@@ -1,4 +1,4 @@
-"""Looking at pictures: PNG bytes in, a scene out; every picture is read once."""
+"""Looking at pictures: PNG bytes in, a sight out; every picture is read once."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from skillwrapper.domains.burger.scene_reader import read_burger_scene
-from skillwrapper.embedded.scene import Scene
+from skillwrapper.embedded.facts import Fact
+from skillwrapper.embedded.scene_graph import SceneGraph
 from skillwrapper.errors import PictureError
 
-SceneReader = Callable[[bytes], Scene]
-
-BUNDLED_READERS: tuple[SceneReader, ...] = (read_burger_scene,)
-"""One scene reader for every bundled domain; each raises ``PictureError`` on other pictures."""
+SceneReader = Callable[[bytes], SceneGraph]
+"""Reads the bytes of a PNG; raises ``PictureError`` on pictures of something else."""
 
 
 @dataclass(frozen=True)
 class Sight:
-    """What is seen in one picture.
+    """What is seen in one picture, every fact of it rightly.
 
     Attributes:
-        scene: what is where.
-        width: of the picture, in pixels.
-        height: of the picture, in pixels.
+        graph: what is where.
+        size: width and height of the picture, in pixels.
         key: SHA-256 of the picture.
     """
 
-    scene: Scene
-    width: int
-    height: int
+    graph: SceneGraph
+    size: tuple[int, int]
     key: str
+
+    def holds(self, fact: Fact) -> bool:
+        """Whether a fact seems to be the case."""
+        return fact.truth(self.graph, self.size)
 
 
 Sights = Sequence[Sight | None]
@@ -45,6 +45,11 @@ def sight_at(sights: Sights, position: int | None) -> Sight | None:
     return sights[position] if position is not None and position < len(sights) else None
 
 
+def first_sight(sights: Sights) -> Sight | None:
+    """What is seen in the first picture that shows anything known."""
+    return next((sight for sight in sights if sight is not None), None)
+
+
 class Eye:
     """Reads pictures and remembers the last ones. Safe to use from several threads.
 
@@ -53,9 +58,7 @@ class Eye:
         memory: how many pictures are remembered.
     """
 
-    def __init__(
-        self, readers: Sequence[SceneReader] = BUNDLED_READERS, memory: int = 8192
-    ) -> None:
+    def __init__(self, readers: Sequence[SceneReader], memory: int = 8192) -> None:
         self._readers, self._memory = tuple(readers), memory
         self._seen: OrderedDict[str, Sight | None] = OrderedDict()
         self._lock = threading.Lock()
@@ -82,9 +85,9 @@ class Eye:
     def _read(self, png: bytes, key: str) -> Sight | None:
         for reader in self._readers:
             try:
-                scene = reader(png)
+                graph = reader(png)
             except PictureError:
                 continue
             width, height = struct.unpack(">II", png[16:24])
-            return Sight(scene, width, height, key)
+            return Sight(graph, (width, height), key)
         return None

@@ -149,10 +149,11 @@ def _open_all(
     """All models by their names; a given one stands for all of them."""
     if model is not None:
         return {model.name: model}
-    return {
-        name: close_with(resources, open_model(name, settings.model, settings.seed))
+    opened = {
+        name: open_model(name, settings.model, settings.seed, settings.domain)
         for name in model_names(settings.model)
     }
+    return {name: close_with(resources, model) for name, model in opened.items()}
 
 
 def _name_of(role: Role, settings: RunSettings, model: VisionLanguageModel | None) -> str:

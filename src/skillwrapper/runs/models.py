@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from pathlib import Path
 
+from skillwrapper.domains.eyesight import Eyesight
 from skillwrapper.embedded import EmbeddedModel, noise_profile
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.runs.settings import ModelSettings, RunSettings
@@ -16,16 +17,20 @@ EMBEDDED = "embedded"
 _KINDS = ("embedded", "openai:NAME", "recorded:DIR")
 
 
-def open_model(name: str, settings: ModelSettings, seed: int) -> VisionLanguageModel:
+def open_model(
+    name: str, settings: ModelSettings, seed: int, domain: str | None = None
+) -> VisionLanguageModel:
     """The model of a name: ``embedded``, ``openai:NAME`` or ``recorded:DIR``.
 
     Args:
         name: which model.
         settings: each for the models that it concerns.
         seed: of the embedded model.
+        domain: whose pictures the embedded model is to make out; None for all that are bundled.
 
     Raises:
-        ConfigurationError: if something is missing in the name, or a setting makes no sense.
+        ConfigurationError: if something is missing in the name, a setting makes no sense, or the
+            embedded model has nothing to read pictures of the domain with.
         UnknownNameError: if there is no such kind of model or noise profile.
         AuthenticationError: if a key is needed and there is none.
         RunFolderError: if a recording is missing or damaged.
@@ -34,7 +39,8 @@ def open_model(name: str, settings: ModelSettings, seed: int) -> VisionLanguageM
     if kind not in {known.partition(":")[0] for known in _KINDS}:
         raise UnknownNameError("model", name, _KINDS)
     if name == EMBEDDED:
-        return EmbeddedModel(seed, noise_profile(settings.noise))
+        eyes = Eyesight.for_domain(domain)
+        return EmbeddedModel(seed, noise_profile(settings.noise), eyes.readers, eyes.words)
     if kind == "recorded" and rest:
         return RecordedModel(Path(rest))
     if kind == "openai" and rest:
@@ -66,7 +72,8 @@ def check_models(settings: RunSettings) -> None:
     open_prompts(settings.model)
     with ExitStack() as resources:
         for name in model_names(settings.model):
-            close_with(resources, open_model(name, settings.model, settings.seed))
+            opened = open_model(name, settings.model, settings.seed, settings.domain)
+            close_with(resources, opened)
 
 
 def close_with(resources: ExitStack, model: VisionLanguageModel) -> VisionLanguageModel:

@@ -17,7 +17,7 @@ from skillwrapper.domains.burger.renderer import BurgerRenderer
 from skillwrapper.domains.burger.scene_reader import read_burger_scene
 from skillwrapper.domains.burger.states import HAND, ITEMS, TABLE, BurgerState
 from skillwrapper.embedded import pixels
-from skillwrapper.embedded.scene import Scene
+from skillwrapper.embedded.scene_graph import SceneGraph
 from skillwrapper.errors import PictureError
 from skillwrapper.world import encode_png
 
@@ -32,20 +32,19 @@ def states() -> tuple[BurgerState, ...]:
     return BurgerEnvironment().reachable_states()
 
 
-def drawn(state: BurgerState, layout: Layout, scene: Scene) -> Scene:
+def drawn(state: BurgerState, layout: Layout, scene: SceneGraph) -> SceneGraph:
     """What should be read: the places of the simulator, with the scene's own tables."""
-    on, held = {}, {}
+    on, held = set(), set()
     for item, place in zip(ITEMS, state.places, strict=True):
         if place == HAND:
-            held[item] = "robot"
+            held.add((item, "robot"))
         else:
-            on[item] = _table_at(layout, item, scene) if place == TABLE else place
-    attributes = {"lettuce": ("cut", state.cut), "patty": ("cooked", state.cooked)}
-    seen = {item: frozenset({name}) for item, (name, true) in attributes.items() if true}
-    return Scene(scene.things, on, held, seen)
+            on.add((item, _table_at(layout, item, scene) if place == TABLE else place))
+    attributes = {"lettuce": {"cut": state.cut}, "patty": {"cooked": state.cooked}}
+    return SceneGraph(scene.things, {"on": on, "held": held}, attributes)
 
 
-def _table_at(layout: Layout, item: str, scene: Scene) -> str:
+def _table_at(layout: Layout, item: str, scene: SceneGraph) -> str:
     spot = layout.table_of(item)
     near = [
         name
@@ -61,11 +60,7 @@ def check(pairs: Iterable[tuple[BurgerState, Layout]], renderer: BurgerRenderer)
     for state, layout in pairs:
         scene = read_burger_scene(encode_png(renderer.render(state, layout)))
         expected = drawn(state, layout, scene)
-        assert (scene.on, scene.held, scene.attributes) == (
-            expected.on,
-            expected.held,
-            expected.attributes,
-        ), (state, layout)
+        assert scene == expected, (state, layout)
 
 
 def test_a_sample_of_states_in_many_layouts(
@@ -105,8 +100,7 @@ def test_light_may_change(
         picture = ImageEnhance.Brightness(renderer.render(state, layout)).enhance(brightness)
         scene = read_burger_scene(encode_png(picture))
         expected = drawn(state, layout, scene)
-        assert (scene.on, scene.held) == (expected.on, expected.held)
-        assert scene.attributes == expected.attributes
+        assert scene == expected
 
 
 def test_jpeg_and_another_size_may_come_between(
@@ -118,8 +112,7 @@ def test_jpeg_and_another_size_may_come_between(
         renderer.render(state, layout).resize((640, 640)).save(buffer, "JPEG", quality=75)
         scene = read_burger_scene(buffer.getvalue())
         expected = drawn(state, layout, scene)
-        assert (scene.on, scene.held) == (expected.on, expected.held)
-        assert scene.attributes == expected.attributes
+        assert scene == expected
 
 
 def test_other_pictures_are_refused() -> None:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from skillwrapper.domains.burger.environment import BurgerEnvironment
-from skillwrapper.embedded.lexicon import all_concepts
-from skillwrapper.embedded.model import EmbeddedModel
+from seen_kitchen import LEXICON, embedded_model, kitchen
+
 from skillwrapper.evaluation.exact.plain_sight import PlainSight
 from skillwrapper.grounding import UNKNOWN, AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
@@ -21,23 +20,21 @@ TYPES = {"item": "pickupable", "station": "station", "robot": "robot"}
 def every_concept() -> tuple[Predicate, ...]:
     """A predicate for every concept of the lexicon, by its name and every meaning."""
     found = {}
-    for concept in all_concepts(("board", "stove")):
-        choices = [TYPES.values() if k == "any" else (TYPES.get(k),) for k in concept.kinds]
-        for number, types in enumerate(product(*choices)):
-            if None not in types and types:
-                name = f"{concept.names[0]}_{number}"
-                meaning = concept.describe(concept.meanings[0], types)
+    for concept in LEXICON.concepts(kitchen().graph(kitchen().states[0]).outline):
+        for number, kinds in enumerate(product(TYPES, repeat=concept.arity)):
+            if concept.fits(kinds):
+                types = tuple(TYPES[kind] for kind in kinds)
+                name = f"{concept.wording.names[0]}_{number}"
+                meaning = concept.describe(concept.wording.meanings[0], types)
                 found[name] = Predicate(name, types, meaning)
     return (*found.values(), Predicate("is_happy", ("pickupable",), "It is in a good mood."))
 
 
 def test_the_same_labels_as_by_prompts_and_replies() -> None:
-    kitchen = BurgerEnvironment()
-    kitchen.reset(seed=11)
-    states = kitchen.reachable_states()[::400]
-    pictures = [kitchen.observe_state(state) for state in states]
-    space = AtomSpace(every_concept(), kitchen.domain.objects)
-    by_prompts = TruthTable(kitchen.domain, Assistant(ModelSet.of(EmbeddedModel())))
+    world = kitchen()
+    pictures = [world.look(state) for state in world.states[::400]]
+    space = AtomSpace(every_concept(), world.domain.objects)
+    by_prompts = TruthTable(world.domain, Assistant(ModelSet.of(embedded_model())))
     labels = PlainSight().labels(space, pictures)
     assert (labels == by_prompts.labels(space, pictures)).all()
     assert (labels[:, -4:] == UNKNOWN).all()
@@ -46,6 +43,5 @@ def test_the_same_labels_as_by_prompts_and_replies() -> None:
 
 def test_a_picture_of_something_else() -> None:
     blank = Observation((Picture(b"no picture"),))
-    kitchen = BurgerEnvironment()
-    space = AtomSpace(every_concept()[:2], kitchen.domain.objects)
+    space = AtomSpace(every_concept()[:2], kitchen().domain.objects)
     assert (PlainSight().labels(space, [blank]) == UNKNOWN).all()

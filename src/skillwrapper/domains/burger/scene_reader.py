@@ -1,4 +1,4 @@
-"""Reading pictures of the burger kitchen: pixels in, a scene out.
+"""Reading pictures of the burger kitchen: pixels in, a scene graph out.
 
 It knows the colours and shapes of the usual drawing and nothing of the simulator.
 """
@@ -24,7 +24,7 @@ from skillwrapper.embedded.pixels import (
     find_patches,
     middle_of,
 )
-from skillwrapper.embedded.scene import Box, Scene, Thing
+from skillwrapper.embedded.scene_graph import Box, SceneGraph, Thing
 from skillwrapper.errors import PictureError
 
 _SIZE: Final = 512
@@ -86,12 +86,12 @@ _ITEMS: Final[Mapping[str, _Look]] = MappingProxyType(
 )
 
 
-def read_burger_scene(png: bytes) -> Scene:
+def read_burger_scene(png: bytes) -> SceneGraph:
     """What a picture of the burger kitchen shows.
 
-    Kinds of things: ``robot``, ``station`` (stove, board), ``table`` (table_1, ...), ``item``
-    (lettuce, patty, topbun, bottombun). Attributes: ``cut`` of the lettuce, ``cooked`` of the
-    patty.
+    Kinds of things: ``robot``, ``station`` (stove, board), ``item`` (lettuce, patty, topbun,
+    bottombun), and ``table`` (table_1, ...), which is scenery. Relations: ``on`` and ``held``.
+    Attributes: ``cut`` of the lettuce, ``cooked`` of the patty.
 
     Args:
         png: the encoded picture, in the usual drawing; any arrangement of the kitchen.
@@ -104,11 +104,10 @@ def read_burger_scene(png: bytes) -> Scene:
     places = _find_places(raster)
     seen = [item for name in _ITEMS if (item := _find_item(raster, name)) is not None]
     on, held = _relate(seen, places)
-    return Scene(
+    return SceneGraph(
         things=(*places, *(item.thing for item in seen)),
-        on=MappingProxyType(on),
-        held=MappingProxyType(held),
-        attributes=MappingProxyType({i.thing.name: i.attributes for i in seen if i.attributes}),
+        relations={"on": frozenset(on), "held": frozenset(held)},
+        attributes={item.thing.name: item.attributes for item in seen if item.attributes},
     )
 
 
@@ -118,7 +117,7 @@ class _SeenItem:
 
     thing: Thing
     middle: tuple[float, float]
-    attributes: frozenset[str]
+    attributes: Mapping[str, bool]
 
 
 @cache
@@ -156,7 +155,7 @@ def _find_places(raster: Raster) -> tuple[Thing, ...]:
         Thing("robot", "robot", _around(found["robot"])),
         Thing("stove", "station", _around(found["stove"])),
         Thing("board", "station", _around(found["board"])),
-        *(Thing(f"table_{n}", "table", box) for n, box in enumerate(tables, start=1)),
+        *(Thing(f"table_{n}", "table", box, scenery=True) for n, box in enumerate(tables, start=1)),
     )
 
 
@@ -171,7 +170,7 @@ def _find_item(raster: Raster, name: str) -> _SeenItem | None:
     return _SeenItem(
         Thing(name, "item", _in_picture(box_around(amount))),
         (column * _BLOCK * _STEP, row * _BLOCK * _STEP),
-        frozenset({look.attribute}) if changed else frozenset(),
+        {look.attribute: changed} if look.attribute else {},
     )
 
 
@@ -182,16 +181,16 @@ def _mostly(group: str, amount: Counts, raster: Raster) -> bool:
 
 def _relate(
     items: list[_SeenItem], places: tuple[Thing, ...]
-) -> tuple[dict[str, str], dict[str, str]]:
-    """What each item is directly on, and what is held."""
-    on: dict[str, str] = {}
-    held: dict[str, str] = {}
+) -> tuple[set[tuple[str, str]], set[tuple[str, str]]]:
+    """What each item is directly on, and who holds what."""
+    on: set[tuple[str, str]] = set()
+    held: set[tuple[str, str]] = set()
     for place in places:
         stack = [item for item in items if _is_at(item, place)]
         below = place.name
         for item in sorted(stack, key=lambda item: -item.middle[1]):
             target = held if place.kind == "robot" and below == place.name else on
-            target[item.thing.name] = below
+            target.add((item.thing.name, below))
             below = item.thing.name
     return on, held
 

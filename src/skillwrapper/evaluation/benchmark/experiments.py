@@ -8,7 +8,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from skillwrapper.domains.discovery import bundled_names, find_domain
-from skillwrapper.embedded.noise import PROFILES, noise_profile
+from skillwrapper.embedded.noise import noise_profile, profile_names
 from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
 from skillwrapper.evaluation.methods.method import Cell, CellSettings
 from skillwrapper.evaluation.methods.registry import METHODS
@@ -108,7 +108,7 @@ def read_experiment(path: Path) -> Experiment:
             noise_profile(name)
         except UnknownNameError as error:
             place = document.place(("noise", number))
-            raise UnknownNameError("noise", name, PROFILES, place) from error
+            raise UnknownNameError("noise", name, profile_names(), place) from error
     _check_sources(document, experiment)
     return _with_problem_file(document, experiment)
 

@@ -11,8 +11,9 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from skillwrapper.embedded.lexicon import Understanding, understand
-from skillwrapper.embedded.sight import Eye, Sight
+from skillwrapper.domains.eyesight import Eyesight
+from skillwrapper.embedded.lexicon import Lexicon
+from skillwrapper.embedded.sight import Eye, Sight, first_sight
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.world.observation import Observation
@@ -23,8 +24,9 @@ _CODES = {True: TRUE, False: FALSE, None: UNKNOWN}
 class PlainSight:
     """Reads pictures without error (``perception.labelling.TruthSource``)."""
 
-    def __init__(self) -> None:
-        self._eye = Eye()
+    def __init__(self, domain: str | None = None) -> None:
+        eyes = Eyesight.for_domain(domain)
+        self._eye, self._lexicon = Eye(eyes.readers), Lexicon(eyes.words)
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         """Nothing to do: looking costs nothing."""
@@ -38,31 +40,19 @@ class PlainSight:
                 labels[row] = [
                     code
                     for predicate in space.predicates
-                    for code in _codes(predicate, space.atoms_of[predicate.name], sight)
+                    for code in self._codes(predicate, space.atoms_of[predicate.name], sight)
                 ]
         return labels
 
     def _look(self, observation: Observation) -> Sight | None:
         """What is seen in the first picture that shows anything."""
-        sights = (self._eye.look(p.png, p.sha256) for p in observation.pictures)
-        return next((sight for sight in sights if sight is not None), None)
+        return first_sight([self._eye.look(p.png, p.sha256) for p in observation.pictures])
 
-
-def _codes(predicate: Predicate, atoms: Sequence[Atom], sight: Sight) -> list[int]:
-    meaning = _meaning(predicate, atoms, sight)
-    if meaning is None:
-        return [UNKNOWN] * len(atoms)
-    truth = meaning.concept.truth
-    return [_CODES[truth(sight, meaning.arranged(atom.terms))] for atom in atoms]
-
-
-def _meaning(predicate: Predicate, atoms: Sequence[Atom], sight: Sight) -> Understanding | None:
-    """What a predicate is taken to mean of the things that are seen."""
-    scene = sight.scene
-    seen = (a.terms for a in atoms if all(name in scene for name in a.terms))
-    terms = next(seen, None)
-    if terms is None:
-        return None
-    kinds = tuple(scene.kind(name) for name in terms)
-    semantics = predicate.semantics.partition("\n")[0]
-    return understand(predicate.name, kinds, semantics, scene.names("station"))
+    def _codes(self, predicate: Predicate, atoms: Sequence[Atom], sight: Sight) -> list[int]:
+        semantics = predicate.semantics.partition("\n")[0]
+        said_of = [atom.terms for atom in atoms]
+        meaning = self._lexicon.meaning(predicate.name, semantics, said_of, sight.graph)
+        if meaning is None:
+            return [UNKNOWN] * len(atoms)
+        truth = meaning.concept.truth
+        return [_CODES[truth(sight, meaning.arranged(terms))] for terms in said_of]

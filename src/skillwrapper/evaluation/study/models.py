@@ -7,7 +7,6 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from skillwrapper.embedded.model import EmbeddedModel
 from skillwrapper.runs.models import EMBEDDED, open_model
 from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.vlm.assistant import Assistant
@@ -102,4 +101,4 @@ def open_studied(
 
 def truthful_assistant() -> Assistant:
     """The embedded model without noise: what it reads off clean pictures counts as the truth."""
-    return Assistant(ModelSet.of(EmbeddedModel()))
+    return Assistant(ModelSet.of(open_model(EMBEDDED, ModelSettings(), 0)))
