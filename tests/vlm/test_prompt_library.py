@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -40,7 +41,7 @@ def test_an_unknown_variable_is_named_with_its_template(tmp_path: Path) -> None:
 def test_an_unknown_attribute_is_named_with_its_template(tmp_path: Path, burger: Domain) -> None:
     (tmp_path / "system.j2").write_text("{{ domain.robots }}")
     prompts = PromptLibrary(tmp_path)
-    with pytest.raises(ConfigurationError, match=r"system\.j2: .*'robots'"):
+    with pytest.raises(ConfigurationError, match=r"system\.j2, line 1: .*'robots'"):
         prompts.render(PromptKind.SYSTEM, domain=burger)
 
 
@@ -59,3 +60,66 @@ def test_a_misspelt_file_name_is_not_ignored(tmp_path: Path) -> None:
 def test_a_missing_folder_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="expected a folder"):
         PromptLibrary(tmp_path / "nowhere")
+
+
+HOSTILE = {
+    "syntax": ("fine\n{% for x in %}", 2),
+    "open block": ("{% if domain %}", 1),
+    "missing include": ("\n{% include 'nowhere.j2' %}", 2),
+    "missing import": ("{% import '../../secrets.j2' as x %}", 1),
+    "computed include": ("\n{% include domain.name ~ '.j2' %}", 2),
+    "division": ("\n\n{{ 1 / 0 }}", 3),
+    "type": ("{{ domain.name + 1 }}", 1),
+    "attribute": ("{{ domain.robots }}", 1),
+    "code": ("{{ ''.__class__.__mro__[1].__subclasses__() }}", 1),
+    "code in a macro": ("{% macro m() %}{{ m.__globals__ }}{% endmacro %}\n{{ m() }}", None),
+    "long loop": ("{% for i in range(10 ** 9) %}x{% endfor %}", 1),
+    "nested loops": (
+        "\n{% for i in range(99999) %}{% for j in range(99999) %}{% endfor %}{% endfor %}",
+        2,
+    ),
+    "loops that write": ("{% for i in range(9999) %}{{ 'x' * 9999 }}{% endfor %}", None),
+    "endless recursion": ("{% macro m() %}{{ m() }}{% endmacro %}{{ m() }}", None),
+    "including itself": ("{% include 'system.j2' %}", None),
+    "large text": ("{{ 'x' * 10 ** 12 }}", 1),
+    "large list": ("{{ [1] * 10 ** 12 }}", 1),
+    "large number": ("{{ 10 ** 10 ** 10 ** 10 }}", 1),
+    "doubling": (
+        "{% set n = namespace(s='x') %}"
+        "{% for i in range(60) %}{% set n.s = n.s ~ n.s %}{% endfor %}",
+        1,
+    ),
+    "format": ("{{ '%999999999999d' % 1 }}", 1),
+    "change": ("{% set _ = domain.objects.append(1) %}", 1),
+}
+
+
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_a_hostile_template_ends_in_one_sentence(kind: str, tmp_path: Path, burger: Domain) -> None:
+    """Syntax, run time, loops, sizes, and code: with file and line, and in no time."""
+    text, line = HOSTILE[kind]
+    (tmp_path / "system.j2").write_text(text)
+    began = time.process_time()
+    with pytest.raises(ConfigurationError, match=r"prompt template .*j2") as caught:
+        PromptLibrary(tmp_path).render(PromptKind.SYSTEM, domain=burger)
+    assert time.process_time() - began < 5
+    assert len(str(caught.value).splitlines()) == 1
+    if line is not None:
+        assert f"line {line}" in str(caught.value)
+
+
+def test_a_template_that_is_no_text(tmp_path: Path) -> None:
+    (tmp_path / "system.j2").write_bytes(b"\xff\xfe{{")
+    with pytest.raises(ConfigurationError, match=r"system\.j2: expected UTF-8"):
+        PromptLibrary(tmp_path)
+
+
+def test_ordinary_templates_are_not_kept_from_anything(tmp_path: Path, burger: Domain) -> None:
+    (tmp_path / "system.j2").write_text(
+        "{% macro line(o) %}{{ o.name ~ ':' }}{% endmacro %}"
+        "{% for o in domain.objects if o.types %}{{ loop.index + 1 }} {{ line(o) }} {% endfor %}"
+        "{{ '-' * 3 }} {{ domain.objects | map(attribute='name') | join(', ') | upper }}"
+    )
+    text = PromptLibrary(tmp_path).render(PromptKind.SYSTEM, domain=burger)
+    assert text.startswith("2 robot: 3 lettuce: ")
+    assert text.endswith("STOVE, BOARD")

@@ -10,10 +10,13 @@ from typing import Any
 
 import jinja2
 import jinja2.meta
+from jinja2 import nodes
 
 from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.vlm.template_sandbox import TemplateSandbox
 
 _SUFFIX = ".j2"
+_REFERENCES = (nodes.Include, nodes.Import, nodes.FromImport, nodes.Extends)
 
 
 class PromptKind(StrEnum):
@@ -68,66 +71,50 @@ class PromptLibrary:
     """
 
     def __init__(self, overrides: Path | None = None) -> None:
-        self._environment = _make_environment(overrides)
+        folders = [Path(__file__).parent / "prompts"]
         if overrides is not None:
             _check_folder(overrides)
+            folders.insert(0, overrides)
+        self._sandbox = TemplateSandbox(folders)
         self._templates = {kind: self._compile(kind) for kind in PromptKind}
 
     def render(self, kind: PromptKind, **variables: Any) -> str:
         """Fill in a template.
 
         Raises:
-            ConfigurationError: if it speaks of an attribute that does not exist.
+            ConfigurationError: if it fails, loops without end, or makes too long a text; names
+                file and line.
         """
-        try:
-            return self._templates[kind].render(variables).strip()
-        except jinja2.UndefinedError as error:
-            raise ConfigurationError(
-                f"prompt template {kind}{_SUFFIX}: {error.message}; "
-                f"known variables: {_listing(PROMPT_VARIABLES[kind])}"
-            ) from error
+        return self._sandbox.render_bounded(self._templates[kind], variables).strip()
 
     def _compile(self, kind: PromptKind) -> jinja2.Template:
         name = f"{kind}{_SUFFIX}"
-        try:
-            self._check_variables(kind)
-            return self._environment.get_template(name)
-        except jinja2.TemplateSyntaxError as error:
-            place = error.name or name
-            raise ConfigurationError(
-                f"prompt template {place}, line {error.lineno}: {error.message}"
-            ) from error
-        except jinja2.TemplateError as error:
-            raise ConfigurationError(f"prompt template {name}: {error}") from error
-
-    def _check_variables(self, kind: PromptKind) -> None:
-        loader = self._environment.loader
-        if loader is None:
-            return
-        source, _, _ = loader.get_source(self._environment, f"{kind}{_SUFFIX}")
-        used = jinja2.meta.find_undeclared_variables(self._environment.parse(source))
-        unknown = sorted(used - PROMPT_VARIABLES[kind])
+        parsed, file = self._sandbox.source_of(name)
+        unknown = sorted(jinja2.meta.find_undeclared_variables(parsed) - PROMPT_VARIABLES[kind])
         if unknown:
-            where = f"prompt template {kind}{_SUFFIX}"
             raise ConfigurationError(
-                f"{where}: unknown variable '{unknown[0]}'; "
-                f"expected one of: {_listing(PROMPT_VARIABLES[kind])}"
+                f"prompt template {file}: unknown variable '{unknown[0]}'; "
+                f"expected one of: {', '.join(sorted(PROMPT_VARIABLES[kind]))}"
             )
+        self._check_referenced(parsed, {name})
+        with self._sandbox.told(name):
+            return self._sandbox.get_template(name)
 
-
-def _make_environment(overrides: Path | None) -> jinja2.Environment:
-    ours = jinja2.FileSystemLoader(Path(__file__).parent / "prompts")
-    loaders: list[jinja2.BaseLoader] = [ours]
-    if overrides is not None:
-        loaders.insert(0, jinja2.FileSystemLoader(overrides))
-    return jinja2.Environment(
-        loader=jinja2.ChoiceLoader(loaders),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        autoescape=False,
-        auto_reload=False,
-    )
+    def _check_referenced(self, parsed: nodes.Template, known: set[str]) -> None:
+        """Templates that are included or imported must be there and well formed themselves."""
+        for reference in parsed.find_all(_REFERENCES):
+            wanted = getattr(reference, "template", None)
+            if not isinstance(wanted, nodes.Const) or getattr(reference, "ignore_missing", False):
+                continue
+            if str(wanted.value) not in known:
+                known.add(str(wanted.value))
+                try:
+                    inner, _ = self._sandbox.source_of(str(wanted.value))
+                except ConfigurationError as error:
+                    raise ConfigurationError(
+                        f"{error} (line {reference.lineno} of the template that names it)"
+                    ) from error
+                self._check_referenced(inner, known)
 
 
 def _check_folder(folder: Path) -> None:
@@ -138,7 +125,3 @@ def _check_folder(folder: Path) -> None:
     for path in sorted(folder.glob(f"*{_SUFFIX}")):
         if path.name not in known and not path.name.startswith("_"):
             raise UnknownNameError("prompt template", path.name, known, str(folder))
-
-
-def _listing(names: frozenset[str]) -> str:
-    return ", ".join(sorted(names))
