@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.text import Text
 
 from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.output import JsonFlag, print_json, results
@@ -143,19 +144,19 @@ def _count_states(environment: Enumerable, scene: Scene) -> int:
 
 def _print_domain(domain: Domain, found: Mapping[str, Any]) -> None:
     console = results()
-    console.print(f"[bold]{domain.name}[/]: {domain.agent}")
-    console.print("\n[bold]types[/]")
+    console.print(Text.assemble((domain.name, "bold"), f": {domain.agent}"))
+    console.print("\ntypes", style="bold")
     for name in domain.types.names:
         parents = ", ".join(domain.types.parents[name])
         console.print(f"  {name}{f' (a {parents})' if parents else ''}", markup=False)
-    console.print("\n[bold]objects[/]")
+    console.print("\nobjects", style="bold")
     for name, types in found["objects"].items():
         console.print(f"  {name}: {', '.join(types)}", markup=False)
-    console.print("\n[bold]skills[/]")
+    console.print("\nskills", style="bold")
     for skill in domain.skills:
         parameters = ", ".join(f"{p.name}: {p.type}" for p in skill.parameters)
         console.print(f"  {skill.name}({parameters})  {skill.description}", markup=False)
-    console.print("\n[bold]scenes[/]")
+    console.print("\nscenes", style="bold")
     counts = found.get("abstract_states", {})
     for name, objects in found["scenes"].items():
         states = f"  ({counts[name]} reachable states)" if name in counts else ""

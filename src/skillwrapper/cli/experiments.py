@@ -11,6 +11,7 @@ import typer
 from rich.console import Console, JustifyMethod
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table as RichTable
+from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.wide_tables import table_console
@@ -144,9 +145,11 @@ def _watch(
         progress.advance(task)
         if outcome.error:
             where = folder.cell(outcome.cell) / ERROR
-            console.print(f"[red]failed[/] {outcome.cell.name}: {outcome.error} ({where})")
+            said = f" {outcome.cell.name}: {outcome.error} ({where})"
+            console.print(Text.assemble(("failed", "red"), said))
         else:
-            console.print(f"[green]done[/]   {_describe(folder, outcome.cell)}")
+            said = f"   {_describe(folder, outcome.cell)}"
+            console.print(Text.assemble(("done", "green"), said))
 
     return ended
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.text import Text
 
 from skillwrapper.cli.domain_argument import OptionalDomainArgument
 from skillwrapper.cli.estimates import print_estimate
@@ -96,18 +97,17 @@ def _estimate(settings: RunSettings, as_json: bool) -> None:
 def _print_result(out: Path, result: LearningResult) -> None:
     console = results()
     figures = result.to_json()
-    console.print(
-        f"[bold]{figures['predicates']} predicates, {figures['operators']} operators[/] from "
-        f"{figures['executions']} executions"
-    )
+    learned = f"{figures['predicates']} predicates, {figures['operators']} operators"
+    console.print(Text.assemble((learned, "bold"), f" from {figures['executions']} executions"))
     for predicate in result.fit.predicates:
         console.print(f"  {predicate.signature}: {predicate.semantics}", markup=False)
     broken = figures["lemma1_violations"] + figures["theorem1_violations"]
     colour = "green" if broken == 0 and not figures["inconsistencies"] else "yellow"
     console.print(
-        f"[{colour}]Lemma 1: {figures['lemma1_violations']} violations, Theorem 1: "
+        f"Lemma 1: {figures['lemma1_violations']} violations, Theorem 1: "
         f"{figures['theorem1_violations']} violations, {figures['inconsistencies']} "
-        f"inconsistencies left[/]"
+        f"inconsistencies left",
+        style=colour,
     )
     console.print(f"look at it with:  skillwrapper show {out}", markup=False)
     console.print(f"check it with:    skillwrapper verify {out}", markup=False)

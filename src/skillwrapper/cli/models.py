@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 from rich.table import Table
+from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.verification import print_curve, print_verification, run_verification
@@ -84,14 +85,14 @@ def _describe(learned: LearnedRun) -> dict[str, object]:
 
 def _print(learned: LearnedRun) -> None:
     console = results()
-    console.print("[bold]predicates[/]")
+    console.print("predicates", style="bold")
     for predicate in learned.model.predicates:
         console.print(f"  {predicate.signature}", style="cyan", markup=False)
         console.print(f"      {predicate.semantics}", markup=False)
         agreement = learned.agreement(predicate)
         if agreement is not None:
             console.print(f"      agreement of the votes: {agreement:.1%}", markup=False)
-    console.print("\n[bold]operators[/]")
+    console.print("\noperators", style="bold")
     for operator in learned.model.operators:
         for line in describe_operator(operator, learned.untested(operator)).splitlines():
             console.print(f"  {line}", markup=False)
@@ -109,7 +110,7 @@ def _print_certificate(learned: LearnedRun) -> None:
     table.add_row("violations of Lemma 1", str(certificate["lemma1_violations"]))
     table.add_row("violations of Theorem 1", str(certificate["theorem1_violations"]))
     table.add_row("inconsistencies left", str(learned.summary["inconsistencies"]))
-    console.print("[bold]certificate[/] (on the recorded data)")
+    console.print(Text.assemble(("certificate", "bold"), " (on the recorded data)"))
     console.print(table)
     for violation in certificate["violations"]:
         console.print(

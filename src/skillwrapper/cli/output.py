@@ -1,4 +1,8 @@
-"""Printing: results to standard output, progress and errors to standard error."""
+"""Printing: results to standard output, progress and errors to standard error.
+
+What is printed comes from models, files and users, so no console of ours takes square brackets
+for markup or ``:100:`` for an emoji; colours are given as styles.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +19,12 @@ JsonFlag = Annotated[
 
 def results() -> Console:
     """The console for results."""
-    return Console(highlight=False, soft_wrap=True)
+    return Console(highlight=False, soft_wrap=True, markup=False, emoji=False)
 
 
 def messages() -> Console:
     """The console for progress and errors."""
-    return Console(stderr=True, highlight=False)
+    return Console(stderr=True, highlight=False, markup=False, emoji=False)
 
 
 def print_json(content: Any) -> None:

@@ -18,11 +18,11 @@ from skillwrapper.runs.model_sessions import CallCounter
 
 _SHOWN_DECISIONS = 8
 _MARKS = {
-    "accepted": "[green]+[/]",
-    "revived": "[green]^[/]",
-    "rejected": "[dim]-[/]",
-    "retracted": "[yellow]<[/]",
-    "dormant": "[yellow]z[/]",
+    "accepted": ("+", "green"),
+    "revived": ("^", "green"),
+    "rejected": ("-", "dim"),
+    "retracted": ("<", "yellow"),
+    "dormant": ("z", "yellow"),
 }
 
 
@@ -34,7 +34,7 @@ class _Status:
     executed: int = 0
     succeeded: int = 0
     skill: str = ""
-    decisions: list[str] = field(default_factory=list)
+    decisions: list[Text] = field(default_factory=list)
     result: dict[str, Any] = field(default_factory=dict)
 
 
@@ -101,17 +101,18 @@ class RunProgress(Onlooker):
             self._console.print(self._iteration_line(), soft_wrap=True)
 
     def _note(self, verdict: str, predicate: str, reason: str) -> None:
-        self._status.decisions.append(f"{_MARKS[verdict]} {verdict:9} {predicate} [dim]{reason}[/]")
+        said = f" {verdict:9} {predicate} "
+        self._status.decisions.append(Text.assemble(_MARKS[verdict], said, (reason, "dim")))
 
-    def _iteration_line(self) -> str:
+    def _iteration_line(self) -> Text:
         status, result = self._status, self._status.result
         left = result["inconsistencies"]
         colour = "green" if left == 0 else "yellow"
-        return (
+        return Text.assemble(
             f"iteration {status.iteration}/{status.total}  "
             f"{result['executions']} executions  {self.calls} model calls  "
-            f"{result['predicates']} predicates  {result['operators']} operators  "
-            f"[{colour}]{left} inconsistencies left[/]"
+            f"{result['predicates']} predicates  {result['operators']} operators  ",
+            (f"{left} inconsistencies left", colour),
         )
 
     def _draw(self) -> RenderableType:
@@ -124,5 +125,4 @@ class RunProgress(Onlooker):
             ProgressBar(total=max(status.planned, 1), completed=status.executed, width=30),
         )
         figures.add_row("model calls", str(self.calls), "")
-        recent = [Text.from_markup(line) for line in status.decisions[-_SHOWN_DECISIONS:]]
-        return Group(figures, *recent)
+        return Group(figures, *status.decisions[-_SHOWN_DECISIONS:])

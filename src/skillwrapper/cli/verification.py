@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.evaluation.exact.learning_curves import (
@@ -122,9 +123,9 @@ def print_verification(verification: Verification, console: Console) -> None:
     for name, *values in rows:
         table.add_row(name, *(f"{v:.3f}" for v in values))
     console.print(table)
-    answers = {True: "[green]yes[/]", False: "[red]no[/]", None: "not decided"}
+    answers = {True: ("yes", "green"), False: ("no", "red"), None: ("not decided", "")}
     for verdict in ("sound", "complete", "suitable"):
-        console.print(f"{verdict}: {answers[getattr(figures, verdict)]}")
+        console.print(Text.assemble(f"{verdict}: ", answers[getattr(figures, verdict)]))
     for example in figures.counterexamples:
         path = ", ".join(map(str, example.path)) or "the start"
         console.print(f"  not {example.verdict}: {example.reason}", markup=False)
