@@ -23,6 +23,11 @@ class Whole(BaseModel):
     parts: tuple[Part, ...]
 
 
+BOMB = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1]\n" + "".join(
+    f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]\n" for n in range(1, 9)
+)
+"""A few lines that hold 100 million values if all aliases are written out."""
+
 GOOD = '{\n "parts": [\n  {\n   "name": "a",\n   "count": 2\n  }\n ]\n}\n'
 
 
@@ -82,6 +87,13 @@ def test_lines_that_do_not_fit_are_named(tmp_path: Path) -> None:
         ("a: !thing 3\n", r":1: expected valid YAML"),
         ("? [a, b]\n: 1\n? {c: 1}\n: 2\n", r":1: .*expected text as a key"),
         ("[" * 5000, "nesting"),
+        ("a: 1\nb: &b [1, *b]\n", r":2: .*expected nothing that holds itself"),
+        ("a: 1\nb: &b {c: {<<: *b}}\n", r":2: .*expected nothing that holds itself"),
+        (BOMB, r":6: .*expected at most 200000 values with all aliases written out"),
+        ("a: |\n" + "  x\n" * 300_000, r"file.yaml: expected at most 1000000 bytes, got more"),
+        ("a: 1\nb: " + "9" * 6000, r":2: .*expected a value of the kind int"),
+        ("a: 1\nb: !!int six\n", r":2: .*expected a value of the kind int"),
+        ('a: 1\nb: "\\ud800"\n', r":2: .*got half a character"),
         ("a: [1\n", r":2: expected valid YAML"),
     ],
 )
@@ -90,6 +102,14 @@ def test_yaml_that_says_two_things_or_none(tmp_path: Path, text: str, message: s
     path.write_text(text)
     with pytest.raises(ConfigurationError, match=message):
         YamlDocument.read(path)
+
+
+def test_a_file_that_was_named_by_mistake_is_not_shown(tmp_path: Path) -> None:
+    path = tmp_path / "passwd"
+    path.write_text("root:x:0:0:root:/root:/bin/bash\ndaemon:x:1:1\n")
+    with pytest.raises(ConfigurationError) as caught:
+        YamlDocument.read(path).validate(Whole)
+    assert str(caught.value) == f"{path}:1: 'the file': expected keys and values, got text"
 
 
 def test_dates_stay_text(tmp_path: Path) -> None:

@@ -113,6 +113,18 @@ def test_mistake_is_named_with_its_line(
     assert message in str(caught.value)
 
 
+@pytest.mark.parametrize("name", ["", "a b", "a,b", "a\\nb", "a(b)", "a)", "?a", "1a", "a.b", "ä"])
+@pytest.mark.parametrize("old", ["  robot:", "  arm:", "  Take:", "name: food,", "  full:"])
+def test_names_that_no_reply_can_carry_are_refused(tmp_path: Path, old: str, name: str) -> None:
+    """Fault 17 of the list of faults found by use."""
+    text = GOOD + SCENES
+    assert old in text
+    new = f'name: "{name}",' if old.startswith("name") else f'  "{name}":'
+    path = written(tmp_path, text.replace(old, new, 1))
+    with pytest.raises(ConfigurationError, match=r"domain\.yaml:\d+: .*: expected a letter, "):
+        load_domain(path)
+
+
 def test_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="cannot be read"):
         load_domain(tmp_path / "domain.yaml")

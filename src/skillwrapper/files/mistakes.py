@@ -34,6 +34,8 @@ _EXPECTED: Mapping[str, str] = MappingProxyType(
 )
 """Kinds of mistakes that pydantic words for programmers."""
 
+_KINDS: Mapping[type, str] = MappingProxyType({str: "text", list: "a list", type(None): "nothing"})
+
 
 @dataclass(frozen=True)
 class Mistake:
@@ -57,13 +59,19 @@ def first_mistake(error: ValidationError, model: type[BaseModel]) -> Mistake:
     unknown = (mistake for mistake in mistakes if mistake["type"] == "extra_forbidden")
     first = next(unknown, mistakes[0])
     location = tuple(part for part in first["loc"] if part != "[key]")
-    name = ".".join(str(part) for part in location) or "the file"
+    name = ".".join(_printable(str(part)) for part in location) or "the file"
     if first["type"] == "extra_forbidden":
         return Mistake(location, f"unknown key '{name}'{_nearest_field(model, location)}")
     if first["type"] == "missing":
         return Mistake(location, f"expected a value for '{name}', got none")
-    got = shorten(repr(first.get("input")))
+    # What a whole file holds is not shown: it may be a file that was named by mistake.
+    given = first.get("input")
+    got = shorten(repr(given)) if location else _KINDS.get(type(given), type(given).__name__)
     return Mistake(location, f"'{name}': {_expected(first['type'], first['msg'])}, got {got}")
+
+
+def _printable(text: str) -> str:
+    return text if text.isprintable() else repr(text)[1:-1]
 
 
 def shorten(text: str) -> str:

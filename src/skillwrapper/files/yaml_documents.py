@@ -15,6 +15,8 @@ from skillwrapper.files.mistakes import Location, first_mistake
 
 Model = TypeVar("Model", bound=BaseModel)
 
+_MOST_BYTES = 1_000_000
+_MOST_NODES = 200_000
 _DATES = "tag:yaml.org,2002:timestamp"
 
 
@@ -37,11 +39,16 @@ class YamlDocument:
         """Parse a file.
 
         Raises:
-            ConfigurationError: if it is missing, no YAML, or names a key twice; with file and line.
+            ConfigurationError: if it is missing, too large, no YAML, or names a key twice; with
+                file and line.
         """
         try:
-            text = path.read_text(encoding="utf-8")
-            return cls(path, yaml.load(text, Loader=_Loader), compose(text))
+            with path.open("rb") as file:
+                content = file.read(_MOST_BYTES + 1)
+            if len(content) > _MOST_BYTES:
+                raise ConfigurationError(f"{path}: expected at most {_MOST_BYTES} bytes, got more")
+            data, root = _load(content.decode("utf-8"))
+            return cls(path, data, root)
         except OSError as error:
             raise ConfigurationError(f"{path}: cannot be read ({error.strerror})") from error
         except UnicodeDecodeError as error:
@@ -50,8 +57,6 @@ class YamlDocument:
             raise ConfigurationError(f"{path}: expected fewer levels of nesting") from error
         except yaml.YAMLError as error:
             raise ConfigurationError(f"{path}{_line(error)}: {_problem(error)}") from error
-        except ValueError as error:
-            raise ConfigurationError(f"{path}: expected valid YAML ({error})") from error
 
     def place(self, location: Location) -> str:
         """``file:line`` of a location such as ``("skills", "Pick")``, or of what encloses it."""
@@ -94,6 +99,44 @@ def parse_value(text: str, where: str) -> Any:
         raise ConfigurationError(f"{where}: expected a value as in YAML, got '{text}'") from error
 
 
+def _load(text: str) -> tuple[Any, yaml.Node | None]:
+    """The data of a text, and its nodes.
+
+    Raises:
+        yaml.YAMLError: if it is no YAML, or something in it holds itself.
+    """
+    loader = _Loader(text)
+    try:
+        root = loader.get_single_node()
+        if root is None:
+            return None, None
+        _count_nodes(root, {}, set())
+        return loader.construct_document(root), root
+    finally:
+        loader.dispose()
+
+
+def _count_nodes(node: yaml.Node, known: dict[int, int], enclosing: set[int]) -> int:
+    """How many nodes there are with all aliases written out; refuses too many, and circles."""
+    if id(node) in known:
+        return known[id(node)]
+    if id(node) in enclosing:
+        raise _mistake("expected nothing that holds itself", node)
+    inner = node.value if isinstance(node, yaml.CollectionNode) else []
+    parts = [part for pair in inner for part in (pair if isinstance(pair, tuple) else (pair,))]
+    enclosing.add(id(node))
+    total = 1 + sum(_count_nodes(part, known, enclosing) for part in parts)
+    enclosing.discard(id(node))
+    if total > _MOST_NODES:
+        raise _mistake(f"expected at most {_MOST_NODES} values with all aliases written out", node)
+    known[id(node)] = total
+    return total
+
+
+def _mistake(problem: str, node: yaml.Node) -> yaml.YAMLError:
+    return yaml.constructor.ConstructorError(None, None, problem, node.start_mark)
+
+
 def compose(text: str) -> yaml.Node | None:
     """The nodes of a YAML text, with their lines; JSON is YAML too."""
     root: yaml.Node | None = yaml.compose(text, Loader=_Loader)
@@ -103,6 +146,17 @@ def compose(text: str) -> yaml.Node | None:
 class _Loader(yaml.SafeLoader):
     """Loads plain data only; refuses keys that are given twice, and keeps dates as text."""
 
+    def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
+        """The value of a node."""
+        try:
+            value = super().construct_object(node, deep)
+        except ValueError as error:
+            kind = node.tag.rpartition(":")[2]
+            raise _mistake(f"expected a value of the kind {kind}", node) from error
+        if isinstance(value, str) and _has_surrogate(value):
+            raise _mistake("expected text, got half a character", node)
+        return value
+
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
         """The keys and values of a node."""
         seen: set[object] = set()
@@ -111,13 +165,9 @@ class _Loader(yaml.SafeLoader):
                 continue
             key = self.construct_object(key_node, deep=True)
             if not isinstance(key, Hashable):
-                raise yaml.constructor.ConstructorError(
-                    None, None, "expected text as a key", key_node.start_mark
-                )
+                raise _mistake("expected text as a key", key_node)
             if key in seen:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f"the key '{key}' is given twice", key_node.start_mark
-                )
+                raise _mistake(f"the key '{key}' is given twice", key_node)
             seen.add(key)
         return super().construct_mapping(node, deep)
 
@@ -126,6 +176,10 @@ _Loader.yaml_implicit_resolvers = {
     first: [(tag, pattern) for tag, pattern in resolvers if tag != _DATES]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }
+
+
+def _has_surrogate(text: str) -> bool:
+    return any("\ud800" <= character <= "\udfff" for character in text)
 
 
 def _line(error: yaml.YAMLError) -> str:
