@@ -13,10 +13,12 @@ import numpy as np
 
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.learning.certification import certify
-from skillwrapper.learning.fitting import Fit, fit_skill
+from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.learner import learn_operators
 from skillwrapper.learning.untested import find_untested
 from skillwrapper.symbols import Atom, Predicate
-from skillwrapper.transitions.tables import SkillTable
+from skillwrapper.transitions.executions import Executions
+from skillwrapper.transitions.labelled import LabelledTransitions, SceneTransitions
 from skillwrapper.world import Domain, Object, Parameter, Skill, SkillInstance, TypeHierarchy
 
 AT_MOST = 300
@@ -73,41 +75,36 @@ def label(states: list[State], wrong: float, chance: np.random.Generator) -> Lab
     return np.where(chance.random(labels.shape) < wrong, 1 - labels, labels).astype(np.int8)
 
 
-def transitions(size: int, wrong: float, seed: int) -> dict[str, SkillTable]:
-    """A walk of which every other skill succeeds, by skill."""
+def transitions(size: int, wrong: float, seed: int) -> LabelledTransitions:
+    """A walk of which every other skill succeeds."""
     chance = np.random.default_rng(seed)
     instances = [i for i in DOMAIN.skill_instances if len(set(i.arguments)) == len(i.arguments)]
     states: list[State] = [{b.name: "table" for b in BLOCKS}]
-    done: list[tuple[SkillInstance, bool]] = []
+    done: list[tuple[int, bool]] = []
     while len(done) < size:
-        instance = instances[int(chance.integers(len(instances)))]
-        after = succeed(states[-1], instance)
+        number = int(chance.integers(len(instances)))
+        after = succeed(states[-1], instances[number])
         if (after is not None) == (len(done) % 2 == 0):
-            done.append((instance, after is not None))
+            done.append((number, after is not None))
             states.append(states[-1] if after is None else after)
-    labels = label(states, wrong, chance)
-    return {s.name: table(s.name, done, labels) for s in SKILLS}
-
-
-def table(skill: str, done: list[tuple[SkillInstance, bool]], labels: Labels) -> SkillTable:
-    rows = np.array([n for n, (instance, _) in enumerate(done) if instance.skill == skill])
-    own = tuple(sorted({done[n][0] for n in rows}))
-    return SkillTable(
-        space=SPACE,
-        instances=own,
-        which=np.array([own.index(done[n][0]) for n in rows]),
-        success=np.array([done[n][1] for n in rows]),
-        before=labels[rows],
-        after=labels[rows + 1],
+    rows = np.arange(size)
+    executions = Executions(
+        DOMAIN.scene(),
+        tuple(instances),
+        which=np.array([number for number, _ in done]),
+        success=np.array([success for _, success in done]),
+        before=rows,
+        after=rows + 1,
+        unchanged=np.zeros(size, dtype=bool),
         ids=rows,
-        unchanged=np.zeros(len(rows), dtype=bool),
     )
+    scene = SceneTransitions.of(executions, SPACE, label(states, wrong, chance))
+    return LabelledTransitions(DOMAIN, PREDICATES, (scene,))
 
 
-def learn(tables: dict[str, SkillTable]) -> Fit:
+def learn(labelled: LabelledTransitions) -> Fit:
     """Learn every skill, and do everything that looks at all bindings."""
-    fits = [fit_skill(DOMAIN, s, (tables[s.name],), PREDICATES) for s in SKILLS]
-    found = Fit(DOMAIN, PREDICATES, {of_skill.skill: of_skill for of_skill in fits})
+    found = learn_operators(labelled)
     assert found.inconsistencies is not None
     certify(found)
     find_untested(found)
@@ -118,12 +115,12 @@ def main() -> None:
     """Print peak memory and seconds for several sizes, without and with wrong labels."""
     for wrong in (0.0, 0.01):
         for size in (125, 250, 500):
-            tables = transitions(size, wrong, seed=0)
+            labelled = transitions(size, wrong, seed=0)
             started = time.perf_counter()
-            found = learn(tables)
+            found = learn(labelled)
             seconds = time.perf_counter() - started
             tracemalloc.start()
-            learn(tables)
+            learn(labelled)
             peak = tracemalloc.get_traced_memory()[1] / 1e6
             tracemalloc.stop()
             most = max(len(learned.operator.parameters) for learned in found.operators)

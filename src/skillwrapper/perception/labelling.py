@@ -13,6 +13,7 @@ from skillwrapper.transitions.labelled import (
     LabelledTransitions,
     PredicateLabels,
     SceneTransitions,
+    split_labels,
 )
 from skillwrapper.transitions.lifting import Lifter
 from skillwrapper.transitions.recorded import RecordedTransitions
@@ -75,12 +76,8 @@ class Labeller:
         missing = [p for p in predicates if not self._is_read(scene, p, len(observations))]
         if missing:
             space = AtomSpace(tuple(missing), scene.objects)
-            values, first = self.truth.labels(space, observations), 0
-            for predicate in missing:
-                after = first + len(space.atoms_of[predicate.name])
-                labels = PredicateLabels.certain(predicate, values[:, first:after])
-                self._read[scene, predicate] = labels
-                first = after
+            for labels in split_labels(space, self.truth.labels(space, observations)):
+                self._read[scene, labels.predicate] = labels
         return tuple(self._read[scene, p] for p in predicates)
 
     def _is_read(self, scene: Scene, predicate: Predicate, observations: int) -> bool:

@@ -24,7 +24,6 @@ from skillwrapper.transitions.inferred import infer_predicates
 from skillwrapper.transitions.labelled import (
     Confidence,
     LabelledTransitions,
-    PredicateLabels,
     SceneTransitions,
 )
 from skillwrapper.world.domain import Domain
@@ -253,14 +252,7 @@ def _label_scene(
         ):
             values[row] = rest
             _fill(space, facts, step.where, values[row], confidence[row])
-    labels = []
-    first = 0
-    for predicate in space.predicates:
-        after = first + len(space.atoms_of[predicate.name])
-        own = values[:, first:after], confidence[:, first:after]
-        labels.append(PredicateLabels(predicate, *own))
-        first = after
-    return SceneTransitions(_executions(scene, steps), tuple(labels))
+    return SceneTransitions.of(_executions(scene, steps), space, values, confidence)
 
 
 def _fill(

@@ -8,7 +8,7 @@ learned from them can tell by their content what is left to be learned.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -81,6 +81,20 @@ class PredicateLabels:
         return self._digests[key]
 
 
+def split_labels(
+    space: AtomSpace, values: Labels, confidence: Confidence | None = None
+) -> Iterator[PredicateLabels]:
+    """The labels (states, atoms) of every predicate by itself; certain by default."""
+    first = 0
+    for predicate in space.predicates:
+        own = slice(first, first + len(space.atoms_of[predicate.name]))
+        if confidence is None:
+            yield PredicateLabels.certain(predicate, values[:, own])
+        else:
+            yield PredicateLabels(predicate, values[:, own], confidence[:, own])
+        first = own.stop
+
+
 @dataclass(frozen=True, eq=False)
 class SceneTransitions:
     """All transitions in one scene, with the labels of one vocabulary.
@@ -92,6 +106,24 @@ class SceneTransitions:
 
     executions: Executions
     labels: tuple[PredicateLabels, ...]
+
+    @classmethod
+    def of(
+        cls,
+        executions: Executions,
+        space: AtomSpace,
+        values: Labels,
+        confidence: Confidence | None = None,
+    ) -> SceneTransitions:
+        """From the labels of all ground atoms.
+
+        Args:
+            executions: what was run.
+            space: the ground atoms over the objects of the scene.
+            values: labels (states, atoms).
+            confidence: the probability (states, atoms) that a label is right; None for certain.
+        """
+        return cls(executions, tuple(split_labels(space, values, confidence)))
 
     @cached_property
     def space(self) -> AtomSpace:
