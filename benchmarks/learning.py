@@ -13,8 +13,11 @@ import numpy as np
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.grounding import AtomSpace
-from skillwrapper.learning.faithful import fit_skill
+from skillwrapper.learning.clusters import cluster_successes
+from skillwrapper.learning.determinism import fit_skill
+from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.learning.operators import cluster_operators
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.tables import SkillTable
 
@@ -92,17 +95,19 @@ def main() -> None:
     """Print seconds for several sizes and their ratio to the smallest."""
     kitchen = Kitchen()
     print(f"operator learning, {len(kitchen.space.atoms)} ground atoms, one core")
-    predicates = kitchen.space.predicates
+    settings = LearnerSettings()
+    languages = [
+        OperatorLanguage(kitchen.domain, skill, kitchen.space.predicates, settings)
+        for skill in kitchen.domain.skills
+    ]
     first = 0.0
     for size in SIZES:
         data = kitchen.draw(size, seed=0)
         started = time.perf_counter()
-        for skill in kitchen.domain.skills:
-            cluster_operators(kitchen.domain, skill, data[skill.name], predicates)
+        for language in languages:
+            cluster_operators(language, cluster_successes(data[language.skill.name]))
         seconds = time.perf_counter() - started
-        fits = [
-            fit_skill(kitchen.domain, s, data[s.name], predicates) for s in kitchen.domain.skills
-        ]
+        fits = [fit_skill(language, data[language.skill.name]) for language in languages]
         complete = time.perf_counter() - started - seconds
         wrong = sum(len(fit.inconsistencies) for fit in fits)
         first = first or seconds

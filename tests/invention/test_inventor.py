@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from notebook import Notebook, make_domain
 
 from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.learning.settings import LearningSettings
 from skillwrapper.symbols import Predicate
 
 KITCHEN = make_domain(

@@ -26,9 +26,9 @@ def learned(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     names: list[str] = []
     original = faithful.fit_skill
 
-    def spy(domain, skill, data, predicates, **options):
-        names.append(skill.name)
-        return original(domain, skill, data, predicates, **options)
+    def spy(language, data):
+        names.append(language.skill.name)
+        return original(language, data)
 
     monkeypatch.setattr(faithful, "fit_skill", spy)
     return names

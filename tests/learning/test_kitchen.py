@@ -8,11 +8,11 @@ from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.inventor import Inventor
 from skillwrapper.invention.pruning import prune
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.certification import certify
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
-from skillwrapper.learning.settings import LearningSettings
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.recorded import RecordedTransitions

@@ -15,7 +15,7 @@ from skillwrapper.learning import faithful
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.learner import learn_operators, make_learner
-from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.entries import label_entries
 from skillwrapper.transitions.labelled import LabelledTransitions
@@ -78,9 +78,9 @@ def test_relearning_after_a_correction_is_learning_from_scratch(
 def test_a_correction_relearns_only_what_it_touches(entries: Entries, seed: int) -> None:
     learned: list[str] = []
 
-    def spy(domain, skill, *others, **options):
-        learned.append(skill.name)
-        return original(domain, skill, *others, **options)
+    def spy(language, data):
+        learned.append(language.skill.name)
+        return original(language, data)
 
     original = faithful.fit_skill
     changed, place = corrected(entries, seed)
@@ -97,9 +97,9 @@ def test_a_correction_relearns_only_what_it_touches(entries: Entries, seed: int)
 
 
 def test_a_learner_is_chosen_by_name() -> None:
-    assert isinstance(make_learner(LearningSettings()), FaithfulLearner)
+    assert isinstance(make_learner(LearnerSettings()), FaithfulLearner)
     with pytest.raises(UnknownNameError, match="did you mean 'faithful'"):
-        make_learner(LearningSettings(learner="faitful"))
+        make_learner(LearnerSettings(learner="faitful"))
 
 
 def test_a_part_of_the_vocabulary_will_do() -> None:
@@ -120,7 +120,7 @@ def test_doubtful_labels_count_as_unknown() -> None:
         return [{**step, "before": before, "after": after}, rest]
 
     def model(probability: float | bool | None, least: float = 0.9) -> Any:
-        settings = LearningSettings(least_confidence=least)
+        settings = LearnerSettings(least_confidence=least)
         return learn_operators(labelled(entries(probability)), settings=settings).model
 
     assert model(0.95) == model(True)

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.runs.learn import learn
 from skillwrapper.runs.settings import ModelSettings, RunSettings

@@ -8,7 +8,7 @@ from pydantic import ValidationError
 from skillwrapper.errors import ConfigurationError, UserError
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.files.yaml_documents import YamlDocument
-from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.runs.settings import FREE, ModelSettings, RunSettings
 from skillwrapper.runs.settings_layers import SettingsLayers
 from skillwrapper.runs.settings_tree import Setting, list_settings

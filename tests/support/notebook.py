@@ -14,8 +14,11 @@ import numpy as np
 
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.invention.fitter import Fitter
-from skillwrapper.learning.faithful import FaithfulLearner, fit_skill
+from skillwrapper.learning.determinism import fit_skill
+from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.learning.language import OperatorLanguage
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.transitions.recorded import RecordedTransitions
@@ -136,7 +139,8 @@ class Notebook:
     def fit_skill(self, skill: str) -> SkillFit:
         """One skill, tautologies included."""
         own = self.domain.skill_by_name[skill]
-        return fit_skill(self.domain, own, self.data(skill), self.predicates)
+        language = OperatorLanguage(self.domain, own, self.predicates, LearnerSettings())
+        return fit_skill(language, self.data(skill))
 
     def _row(self, space: AtomSpace, state: str) -> list[int]:
         known = {

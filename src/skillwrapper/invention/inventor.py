@@ -12,12 +12,12 @@ from typing import Protocol
 from skillwrapper.grounding import UNKNOWN, AtomSpace, Labels
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.pruning import find_burdens
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import OPERATOR_COST, Fit, SkillFit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
-from skillwrapper.learning.settings import LearningSettings
 from skillwrapper.symbols import Literal, Predicate
 from skillwrapper.transitions.lifting import LiftedChange, lift_change
 from skillwrapper.transitions.tables import changed_literals

@@ -27,6 +27,12 @@ class Cluster:
     change: LiftedChange
     groups: tuple[Group, ...]
 
+    @property
+    def context(self) -> int:
+        """Number of objects in the change that are no arguments."""
+        first = self.groups[0]
+        return len(first.lifting.objects) - len(first.instance.arguments)
+
     @cached_property
     def ids(self) -> list[int]:
         """Numbers of the transitions, in order of time."""

@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 from skillwrapper.grounding import TRUE
 from skillwrapper.grounding.atom_index import ANY, Columns, LiftedAtom, taken_objects
 from skillwrapper.learning.clusters import Bundle, Cluster, bundle_groups
+from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.learning.operators import LearnedOperator, operator_of
 from skillwrapper.symbols import Atom, ConditionalEffect, Literal, Operator, Predicate, Variable
 from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.tables import Group
 from skillwrapper.world.domain import Domain
-from skillwrapper.world.skills import Skill
 
 EACH = "?each"
 
@@ -57,30 +57,21 @@ def cluster_by_core(clusters: Sequence[Cluster]) -> tuple[Cluster, ...]:
 
 
 def learn_with_conditional_effects(
-    domain: Domain,
-    skill: Skill,
-    cores: Sequence[Cluster],
-    predicates: Sequence[Predicate],
-    *,
-    absences: bool = True,
+    language: OperatorLanguage, cores: Sequence[Cluster]
 ) -> tuple[LearnedOperator, ...]:
     """Operators with conditional effects; none if some change follows no rule.
 
     Args:
-        domain: for the type hierarchy.
-        skill: the skill.
-        cores: its successes, clustered by core.
-        predicates: the vocabulary without tautologies.
-        absences: whether preconditions may be universal absences.
+        language: what they may say.
+        cores: the successes of the skill, clustered by core.
     """
     learned = []
     for number, cluster in enumerate(cores, start=1):
-        rules = _find_rules(cluster, predicates)
+        rules = _find_rules(cluster, language.predicates)
         if rules is None:
             return ()
-        name = f"{skill.name}_{number}"
-        plain = operator_of(domain, skill, cluster, predicates, name, absences=absences)
-        effects = frozenset(_effect(domain, plain.operator, rule) for rule in rules)
+        plain = operator_of(language, cluster, f"{language.skill.name}_{number}")
+        effects = frozenset(_effect(language.domain, plain.operator, rule) for rule in rules)
         operator = replace(plain.operator, conditional_effects=effects)
         learned.append(replace(plain, operator=operator))
     return tuple(learned)

@@ -13,77 +13,65 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from skillwrapper.grounding import TRUE
-from skillwrapper.learning.clusters import Cluster
+from skillwrapper.learning.clusters import Cluster, cluster_successes
 from skillwrapper.learning.conditional_effects import (
     cluster_by_core,
     learn_with_conditional_effects,
 )
+from skillwrapper.learning.fitting import SkillFit
+from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.learning.operators import LearnedOperator, cluster_operators, operator_of
-from skillwrapper.learning.predictions import Predictor, TablePrediction
-from skillwrapper.symbols import Predicate
+from skillwrapper.learning.predictions import Predictor
 from skillwrapper.transitions.tables import Group, SkillData
-from skillwrapper.world.domain import Domain
-from skillwrapper.world.skills import Skill
 
 
-def make_deterministic(
-    domain: Domain,
-    skill: Skill,
-    data: SkillData,
-    predicates: Sequence[Predicate],
-    *,
-    absences: bool = True,
-) -> tuple[tuple[LearnedOperator, ...], tuple[TablePrediction, ...]]:
-    """The operators of a skill, mended as far as the vocabulary allows, and what they predict."""
-    plain = cluster_operators(domain, skill, data, predicates, absences=absences)
+def fit_skill(language: OperatorLanguage, data: SkillData) -> SkillFit:
+    """Learn one skill: its operators, mended as far as the vocabulary allows.
+
+    Args:
+        language: what they may say.
+        data: the transitions of the skill.
+    """
+    clusters = cluster_successes(data)
+    left_out = tuple(c for c in clusters if _is_chance(language, c))
+    plain = cluster_operators(language, (c for c in clusters if c not in left_out))
     predictor = Predictor(data)
     chosen: list[LearnedOperator] = []
     for learned in plain:
-        if _mistakes(predictor, [learned]):
-            chosen += _mend(domain, skill, predictor, predicates, learned, absences=absences)
-        else:
-            chosen.append(learned)
-    cores = cluster_by_core([o.cluster for o in plain])
+        mended = _mend(language, predictor, learned) if _mistakes(predictor, [learned]) else ()
+        chosen += mended or [learned]
+    cores = cluster_by_core(clusters)
     if cores and (cost := _cost(predictor, chosen)) > (0, len(cores)):
-        ranging = learn_with_conditional_effects(
-            domain, skill, cores, predicates, absences=absences
-        )
+        ranging = learn_with_conditional_effects(language, cores)
         if ranging and _cost(predictor, ranging) < cost:
-            chosen = list(ranging)
-    if chosen == list(plain):
-        return plain, predictor.predict(plain)
-    named = tuple(
-        predictor.rename(o, f"{skill.name}_{number}") for number, o in enumerate(chosen, start=1)
-    )
-    return named, predictor.predict(named)
+            chosen, left_out = list(ranging), ()
+    if chosen != list(plain):
+        name = language.skill.name
+        chosen = [predictor.rename(o, f"{name}_{n}") for n, o in enumerate(chosen, start=1)]
+    return SkillFit(language.skill.name, tuple(chosen), predictor.predict(chosen), left_out)
+
+
+def _is_chance(language: OperatorLanguage, cluster: Cluster) -> bool:
+    """Whether a change was seen once and among so many objects that it is no rule (D23).
+
+    A wrong label links objects that have nothing to do with each other; whatever then held before
+    would become an operator of its own for every such error.
+    """
+    return len(cluster.ids) == 1 and cluster.context > language.settings.context_of_one
 
 
 def _mend(
-    domain: Domain,
-    skill: Skill,
-    predictor: Predictor,
-    predicates: Sequence[Predicate],
-    learned: LearnedOperator,
-    *,
-    absences: bool,
+    language: OperatorLanguage, predictor: Predictor, learned: LearnedOperator
 ) -> tuple[LearnedOperator, ...]:
-    """What replaces an operator without a wrong prediction, or else the operator itself."""
+    """What replaces an operator without a wrong prediction; nothing if nothing does."""
     for clusters, between_context in _variants(learned.cluster):
         replacement = tuple(
-            operator_of(
-                domain,
-                skill,
-                cluster,
-                predicates,
-                learned.operator.name,
-                between_context=between_context,
-                absences=absences,
-            )
+            operator_of(language, cluster, learned.operator.name, between_context=between_context)
             for cluster in clusters
         )
         if not _mistakes(predictor, replacement):
             return replacement
-    return (learned,)
+    return ()
 
 
 def _variants(cluster: Cluster) -> Iterator[tuple[tuple[Cluster, ...], bool]]:
@@ -91,8 +79,7 @@ def _variants(cluster: Cluster) -> Iterator[tuple[tuple[Cluster, ...], bool]]:
     parts = _split_by_types(cluster)
     if len(parts) > 1:
         yield parts, False
-    first = cluster.groups[0]
-    if len(first.lifting.objects) > len(first.instance.arguments) + 1:
+    if cluster.context > 1:
         yield (cluster,), True
 
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from skillwrapper.learning.determinism import make_deterministic
+from skillwrapper.learning.determinism import fit_skill
 from skillwrapper.learning.fitting import Fit, SkillFit
-from skillwrapper.learning.settings import LearningSettings
-from skillwrapper.symbols import Predicate
+from skillwrapper.learning.language import OperatorLanguage
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.transitions.labelled import Content, LabelledTransitions
-from skillwrapper.transitions.tables import SkillData
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -24,8 +21,8 @@ class FaithfulLearner:
         settings: what conditions may say, and which labels count.
     """
 
-    def __init__(self, settings: LearningSettings | None = None) -> None:
-        self._settings = settings or LearningSettings()
+    def __init__(self, settings: LearnerSettings | None = None) -> None:
+        self._settings = settings or LearnerSettings()
         self._domain: Domain | None = None
         self._executions: dict[str, tuple[bytes, ...]] = {}
         self._fits: dict[str, dict[Content, SkillFit]] = {}
@@ -55,30 +52,8 @@ class FaithfulLearner:
         content = transitions.content(skill.name)
         known = self._fits.get(skill.name, {})
         if content not in known:
-            data = transitions.of_skill(skill.name)
-            absences = self._settings.absences
-            known[content] = fit_skill(
-                transitions.domain, skill, data, transitions.predicates, absences=absences
+            language = OperatorLanguage(
+                transitions.domain, skill, transitions.predicates, self._settings
             )
+            known[content] = fit_skill(language, transitions.of_skill(skill.name))
         return known[content]
-
-
-def fit_skill(
-    domain: Domain,
-    skill: Skill,
-    data: SkillData,
-    predicates: Sequence[Predicate],
-    *,
-    absences: bool = True,
-) -> SkillFit:
-    """Learn one skill from its transitions.
-
-    Args:
-        domain: for the type hierarchy.
-        skill: the skill.
-        data: its transitions.
-        predicates: the vocabulary without tautologies.
-        absences: whether preconditions may be universal absences (D2).
-    """
-    operators, predictions = make_deterministic(domain, skill, data, predicates, absences=absences)
-    return SkillFit(skill.name, operators, predictions)

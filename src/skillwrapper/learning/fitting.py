@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from skillwrapper.learning.clusters import Cluster
 from skillwrapper.learning.inconsistencies import (
     Inconsistency,
     Misprediction,
@@ -34,11 +35,13 @@ class SkillFit:
         skill: its name.
         operators: its operators, one a cluster (or a part of a cluster, D5).
         predictions: what they say of the skill's own transitions.
+        left_out: the clusters of which no operator was learned; none of them is accounted for.
     """
 
     skill: str
     operators: tuple[LearnedOperator, ...]
     predictions: tuple[TablePrediction, ...]
+    left_out: tuple[Cluster, ...] = ()
 
     @cached_property
     def witnesses(self) -> frozenset[Witness]:
@@ -57,7 +60,12 @@ class SkillFit:
     @property
     def cost(self) -> int:
         """Its share of the cost of a fit."""
-        return OPERATOR_COST * len(self.operators) + len(self.witnesses)
+        return self.operator_cost + len(self.witnesses)
+
+    @property
+    def operator_cost(self) -> int:
+        """What its operators cost; one that was left out is as dear as one that was learned."""
+        return OPERATOR_COST * (len(self.operators) + len(self.left_out))
 
     @cached_property
     def undecided(self) -> frozenset[int]:
@@ -141,7 +149,7 @@ class Fit:
         """The same without the transitions that are wrong by the third and fourth kind."""
         hard = (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
         wrong = sum(kind in hard for kind, _, _ in self.witnesses)
-        return OPERATOR_COST * len(self.operators) + wrong
+        return sum(fit.operator_cost for fit in self.each()) + wrong
 
     @property
     def model(self) -> AbstractModel:

@@ -8,7 +8,7 @@ from typing import Protocol
 from skillwrapper.errors import UnknownNameError
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
-from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.labelled import LabelledTransitions
 
@@ -24,11 +24,11 @@ class Learner(Protocol):
         ...
 
 
-LEARNERS: Mapping[str, Callable[[LearningSettings], Learner]] = {"faithful": FaithfulLearner}
+LEARNERS: Mapping[str, Callable[[LearnerSettings], Learner]] = {"faithful": FaithfulLearner}
 """The learners by their names in ``learning.learner``."""
 
 
-def make_learner(settings: LearningSettings) -> Learner:
+def make_learner(settings: LearnerSettings) -> Learner:
     """The learner that the settings name.
 
     Raises:
@@ -43,7 +43,7 @@ def learn_operators(
     transitions: LabelledTransitions,
     vocabulary: Sequence[Predicate] | None = None,
     learner: str = "faithful",
-    settings: LearningSettings | None = None,
+    settings: LearnerSettings | None = None,
 ) -> Fit:
     """Learn operators from labelled transitions, without pictures and without a model.
 
@@ -60,6 +60,6 @@ def learn_operators(
     Raises:
         UnknownNameError: if there is no such learner, or a predicate is not labelled.
     """
-    chosen = (settings or LearningSettings()).model_copy(update={"learner": learner})
+    chosen = (settings or LearnerSettings()).model_copy(update={"learner": learner})
     words = transitions.predicates if vocabulary is None else vocabulary
     return make_learner(chosen).learn(transitions.with_predicates(words))

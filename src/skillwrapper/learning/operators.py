@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from skillwrapper.grounding.atom_index import ANY, LiftedAtom
-from skillwrapper.learning.clusters import Cluster, cluster_successes
+from skillwrapper.learning.clusters import Cluster
+from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.learning.preconditions import (
     Evidence,
     ExistentialContext,
     gather_evidence,
 )
-from skillwrapper.symbols import Absence, Atom, Literal, Operator, Predicate, Variable
-from skillwrapper.transitions.tables import Group, SkillData
+from skillwrapper.symbols import Absence, Atom, Literal, Operator, Variable
+from skillwrapper.transitions.tables import Group
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
@@ -32,46 +33,33 @@ class LearnedOperator:
 
 
 def cluster_operators(
-    domain: Domain,
-    skill: Skill,
-    data: SkillData,
-    predicates: Sequence[Predicate],
-    *,
-    absences: bool = True,
+    language: OperatorLanguage, clusters: Iterable[Cluster]
 ) -> tuple[LearnedOperator, ...]:
-    """One operator for each cluster of successes of a skill.
-
-    Args:
-        domain: for the type hierarchy.
-        skill: the skill.
-        data: its transitions.
-        predicates: the vocabulary without tautologies.
-        absences: whether preconditions may be universal absences.
-    """
+    """One operator for each cluster of successes of a skill, numbered in their order."""
     return tuple(
-        operator_of(domain, skill, cluster, predicates, f"{skill.name}_{number}", absences=absences)
-        for number, cluster in enumerate(cluster_successes(data), start=1)
+        operator_of(language, cluster, f"{language.skill.name}_{number}")
+        for number, cluster in enumerate(clusters, start=1)
     )
 
 
 def operator_of(
-    domain: Domain,
-    skill: Skill,
-    cluster: Cluster,
-    predicates: Sequence[Predicate],
-    name: str,
-    *,
-    between_context: bool = False,
-    absences: bool = True,
+    language: OperatorLanguage, cluster: Cluster, name: str, *, between_context: bool = False
 ) -> LearnedOperator:
-    """The operator of one cluster: the change it shares, under all that held before."""
-    arity = len(skill.parameters)
+    """The operator of one cluster: the change it shares, under all that held before.
+
+    Args:
+        language: what it may say.
+        cluster: the successes.
+        name: its name.
+        between_context: whether it may speak of context objects alone (D5).
+    """
+    domain, skill, arity = language.domain, language.skill, language.arity
     evidence = gather_evidence(
         cluster.groups,
-        predicates,
+        language.predicates,
         arity,
         between_context=between_context,
-        absences=absences,
+        absences=language.settings.absences,
     )
     types = [frozenset.intersection(*map(frozenset, column)) for column in _slots(cluster.groups)]
     parameters = _name_parameters(domain, skill, types, evidence.existentials)

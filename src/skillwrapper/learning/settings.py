@@ -1,51 +1,27 @@
-"""Settings of the learner."""
+"""Settings of learners."""
 
 from __future__ import annotations
-
-from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 
-class LearningSettings(BaseModel):
-    """How predicates are invented, scored and pruned."""
+class LearnerSettings(BaseModel):
+    """Who learns operators, and what these may say."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    threshold: float = Field(
-        default=0.6,
-        ge=0.0,
-        le=1.0,
-        description="least score of a candidate predicate (the paper's h; 0.6 for its simulated "
-        "kitchen, 0.5 for its robots)",
-        json_schema_extra={"unit": "share of the transitions"},
-    )
-    attempts: int = Field(
-        default=3,
-        ge=1,
-        description="how often the model is asked for one inconsistency (D8)",
-        json_schema_extra={"unit": "questions"},
-    )
-    candidates: int = Field(
-        default=5,
-        ge=1,
-        description="how many candidates are asked for at once; the best is kept (D6)",
-        json_schema_extra={"unit": "predicates"},
-    )
-    max_inventions: int = Field(
-        default=60,
-        ge=0,
-        description="upper bound on questions for predicates in one iteration",
-        json_schema_extra={"unit": "questions"},
-    )
-    prune: bool = Field(
-        default=True, description="whether superfluous predicates are set dormant (D9)"
-    )
     learner: str = Field(
         default="faithful", description="who learns operators from labelled transitions"
     )
     absences: bool = Field(
         default=True, description="whether preconditions may be universal absences (D2)"
+    )
+    context_of_one: int = Field(
+        default=3,
+        ge=0,
+        description="how many objects that are no arguments the effect of an operator may have "
+        "that is learned from a single transition (D23)",
+        json_schema_extra={"unit": "objects"},
     )
     least_confidence: float = Field(
         default=0.9,
@@ -53,15 +29,4 @@ class LearningSettings(BaseModel):
         le=1.0,
         description="labels with less confidence count as unknown (D10, D24)",
         json_schema_extra={"unit": "probability"},
-    )
-    invention: Literal["pairs", "batch"] = Field(
-        default="pairs",
-        description="pairs asks for one predicate at a time, from what disagrees with the model; "
-        "batch asks for all of them once, after the first iteration (FM Invent)",
-    )
-    batch_size: int = Field(
-        default=20,
-        ge=1,
-        description="how many predicates batch asks for at most",
-        json_schema_extra={"unit": "predicates"},
     )

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Final
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.redaction import SafeUrl
 from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.protocol import Role

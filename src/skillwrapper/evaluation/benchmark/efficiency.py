@@ -14,7 +14,10 @@ from skillwrapper.evaluation.exact.learning_curves import CurvePoint, area_under
 from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Prepared
 from skillwrapper.exploration.coverage import PairCounts
+from skillwrapper.learning.clusters import cluster_successes
+from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.learning.operators import cluster_operators
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.perception.labelling import Labeller, TruthSource
 from skillwrapper.symbols import Operator, Predicate
 from skillwrapper.transitions.recorded import RecordedTransitions
@@ -72,13 +75,15 @@ def share_changing(
     """
     done, changes = RecordedTransitions(domain), 0
     labeller = Labeller(done, recorded)
+    settings = LearnerSettings(absences=prepared.absences)
     known: dict[str, tuple[Operator, ...]] = {}
     for episode in prepared.episodes:
         for transition in episode.transitions:
             done.add(replace(episode, transitions=(transition,)))
             skill = domain.skill_by_name[transition.instance.skill]
             data = labeller.label(predicates).of_skill(skill.name)
-            found = cluster_operators(domain, skill, data, predicates, absences=prepared.absences)
+            language = OperatorLanguage(domain, skill, predicates, settings)
+            found = cluster_operators(language, cluster_successes(data))
             learned = tuple(o.operator for o in found)
             changes += learned != known.get(skill.name, ())
             known[skill.name] = learned

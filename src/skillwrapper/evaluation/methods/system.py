@@ -21,7 +21,7 @@ from skillwrapper.invention.fitter import Fitter
 from skillwrapper.learning.certification import certify
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
-from skillwrapper.learning.settings import LearningSettings
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.runs.folder import RunFolder
 from skillwrapper.transitions.recorded import RecordedTransitions
@@ -84,7 +84,7 @@ class SystemMethod:
         episodes = read_episodes(RunFolder.open(bench.source / "run"))
         recorded = RecordedStates(reader)
         done = RecordedTransitions(bench.environment.domain)
-        learner = FaithfulLearner(LearningSettings(absences=self.absences))
+        learner = FaithfulLearner(LearnerSettings(absences=self.absences))
         fitter = Fitter(Labeller(done, recorded), learner)
         stages = []
         for episode in episodes:
