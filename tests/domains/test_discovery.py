@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from tea_world import DOMAIN, DRAWING, ROBOT, write_tea_world
 
+import skillwrapper
 from skillwrapper.domains.discovery import bundled_domains, bundled_names, domain_names, find_domain
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
@@ -157,6 +158,14 @@ def test_what_does_not_exist_is_named(tmp_path: Path) -> None:
         find_domain(str(tmp_path))
     with pytest.raises(ConfigurationError, match=r"/nowhere: no such file or folder; expected a f"):
         find_domain(str(tmp_path / "nowhere"))
+
+
+def test_no_other_room_names_a_bundled_domain() -> None:
+    package = Path(skillwrapper.__file__).parent
+    elsewhere = [p for p in package.rglob("*.py") if "domains" not in p.relative_to(package).parts]
+    assert len(elsewhere) > 100
+    for name in bundled_names():
+        assert [p for p in elsewhere if name in p.read_text(encoding="utf-8").lower()] == []
 
 
 def test_parts_that_are_missing_are_named(folder: Path) -> None:

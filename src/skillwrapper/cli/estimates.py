@@ -21,8 +21,8 @@ def print_estimate(estimate: Estimate, console: Console) -> None:
         f"{_dollars(estimate.cost)} dollars"
     )
     console.print(
-        "from the least to the most to expect, judging by runs of burger; without reasoning "
-        "tokens, repeated calls and what a store answers; nothing was asked or executed"
+        "from the least to the most to expect, judging by runs of a bundled domain; without "
+        "reasoning tokens, repeated calls and what a store answers; nothing was asked or executed"
     )
 
 

@@ -20,6 +20,7 @@ from skillwrapper.cli.setting_options import (
     options_given,
     run_settings,
 )
+from skillwrapper.domains.discovery import bundled_domains, find_domain
 from skillwrapper.domains.eyesight import Eyesight
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
@@ -114,6 +115,10 @@ def vlm_server(
         typer.Option(min=0.0, max=1.0, help="Share of failing calls; all if a fault is named."),
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the model, and of what fails.")] = 0,
+    domains: Annotated[
+        list[str] | None,
+        typer.Option("--domain", help="A domain whose pictures it reads, beside all bundled ones."),
+    ] = None,
     list_faults: Annotated[
         bool, typer.Option("--list-faults", help="Print the names of all faults; serve nothing.")
     ] = False,
@@ -124,7 +129,10 @@ def vlm_server(
             typer.echo(f"{name:20} {summary}")
         return
     settings = ServerSettings(port, latency, FaultPlan.of_names(fault or (), faults, seed))
-    eyes = Eyesight.for_domain(None)
+    own = [find_domain(reference) for reference in domains or ()]
+    for package in own:
+        package.require("scene_reader", "serving the embedded model")
+    eyes = Eyesight.for_packages((*bundled_domains(), *own))
     model = EmbeddedModel(seed, readers=eyes.readers, words=eyes.words)
     server = VlmServer(model, settings)
     messages().print(

@@ -292,7 +292,10 @@ class DomainPackage:
 def _what_is_missing(path: Path) -> str:
     if path.is_dir():
         return f"expected a {DOMAIN_FILE} in the folder of a domain, got none"
-    return f"no such file or folder; expected a folder with a {DOMAIN_FILE}"
+    return (
+        f"no such file or folder; expected a folder with a {DOMAIN_FILE} (a run finds its domain "
+        "by 'domain' in its config.yaml)"
+    )
 
 
 def _check_members(thing: object, members: Iterable[str], what: str) -> None:

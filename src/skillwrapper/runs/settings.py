@@ -135,7 +135,9 @@ class RunSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    domain: str = Field(description="what is learned in, e.g. burger")
+    domain: str = Field(
+        description="the domain: a bundled or installed one, its folder, or package.module:name"
+    )
     seed: int = Field(
         default=0,
         ge=0,

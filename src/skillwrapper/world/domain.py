@@ -21,7 +21,7 @@ class Domain:
     """What a robot's user declares (the paper's types, objects and skills).
 
     Attributes:
-        name: e.g. ``"burger"``.
+        name: e.g. ``"kitchen"``.
         agent: one sentence on the robot, used in prompts.
         description: what the scene looks like, used in prompts; no rule of when a skill works.
         types: hierarchy of object types.
@@ -29,7 +29,7 @@ class Domain:
         skills: the black-box skills.
         declared_scenes: those of the file, in its order; empty for one with all objects.
         failures_change_nothing: whether a failed skill is known to leave the state as it
-            was (DESIGN.md D11).
+            was (docs/semantics.md D11).
     """
 
     name: str

@@ -11,7 +11,7 @@ from skillwrapper.errors import ConfigurationError, UnknownNameError
 
 @dataclass(frozen=True)
 class TypeHierarchy:
-    """A directed acyclic graph of object types (DESIGN.md D3).
+    """A directed acyclic graph of object types (docs/semantics.md D3).
 
     Attributes:
         parents: the direct supertypes of every type; roots have none.
