@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from skillwrapper.vlm.parsing.calls import Call
-from skillwrapper.vlm.parsing.instances import InstanceReader
+from skillwrapper.vlm.parsing.instances import InstanceReader, Step, instance_reader
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
@@ -48,15 +47,14 @@ class ParsedPlan:
 
 def parse_plan(reply: str, skills: Sequence[Skill], objects: Sequence[Object]) -> ParsedPlan:
     """Read the plan that follows the reasoning. Never raises."""
-    reader = InstanceReader(skills, objects)
+    reader = instance_reader(tuple(skills), tuple(objects))
     lines = [_content(line.text) for line in reply_lines(reply)]
     steps, unusable = [], []
-    for call in _plan_calls(lines, reader):
-        instance = reader.read(call)
-        if isinstance(instance, str):
-            unusable.append(excerpt(instance, 160))
+    for step in _planned(lines, reader):
+        if isinstance(step.meant, str):
+            unusable.append(excerpt(step.meant, 160))
         else:
-            steps.append(instance)
+            steps.append(step.meant)
     done = any(_DONE.fullmatch(line) for line in lines)
     impossible = not steps and any(_IMPOSSIBLE.fullmatch(line) for line in lines)
     if not (steps or done or impossible or unusable):
@@ -71,15 +69,12 @@ def _content(line: str) -> str:
     return line[label.end() if label else 0 :].strip(" \"',")
 
 
-def _plan_calls(lines: list[str], reader: InstanceReader) -> list[Call]:
-    """The calls of the lines that begin with a skill; where there are none, of the last that
+def _planned(lines: list[str], reader: InstanceReader) -> list[Step]:
+    """The steps of the lines that begin with a skill; where there are none, of the last that
     mentions any. Skills mentioned in the reasoning are not part of the plan.
     """
-    found = [calls for line in lines if (calls := reader.steps(line))]
-    listed = [calls for calls in found if calls[0].start == 0]
-    chosen = listed or [calls for calls in found if any(map(_known(reader), calls))][-1:]
-    return [call for calls in chosen for call in calls]
-
-
-def _known(reader: InstanceReader) -> Callable[[Call], bool]:
-    return lambda call: reader.knows_skill(call.name)
+    found = [steps for line in lines if (steps := reader.steps(line))]
+    listed = [steps for steps in found if steps[0].start == 0]
+    known = (steps for steps in found if any(reader.knows_skill(s.skill) for s in steps))
+    chosen = listed or list(known)[-1:]
+    return [step for steps in chosen for step in steps]

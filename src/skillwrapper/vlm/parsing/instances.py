@@ -5,8 +5,11 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
 
 from skillwrapper.vlm.parsing.calls import Call, find_calls
+from skillwrapper.vlm.parsing.memory import remembering
 from skillwrapper.vlm.parsing.names import NameIndex
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
@@ -14,6 +17,26 @@ from skillwrapper.world.types import Object
 _MOST_REORDERED = 6
 _LONGEST_NAME = 60
 _PIECE = re.compile(r"(?:[^,;:|>-]|-(?![> ]))++")
+
+
+class Step(NamedTuple):
+    """A skill as it was written.
+
+    Attributes:
+        skill: its name as written.
+        start: where it begins in its line.
+        meant: the skill instance that was meant, or why it cannot be told.
+    """
+
+    skill: str
+    start: int
+    meant: SkillInstance | str
+
+
+@lru_cache(maxsize=16)
+def instance_reader(skills: tuple[Skill, ...], objects: tuple[Object, ...]) -> InstanceReader:
+    """The reader for some skills and objects; it remembers what it has read."""
+    return InstanceReader(skills, objects)
 
 
 class InstanceReader:
@@ -29,35 +52,39 @@ class InstanceReader:
         self._objects = {o.name: o for o in objects}
         self._skill_names = NameIndex(self._skills)
         self._object_names = NameIndex(self._objects)
+        self.steps = remembering(self._steps, len)
 
     def knows_skill(self, written: str) -> bool:
         """Whether a name is, or comes near, that of a skill."""
         return self._skill_names.find(written) is not None
 
-    def steps(self, line: str) -> list[Call]:
+    def _steps(self, line: str) -> tuple[Step, ...]:
         """The skills in a line in their order.
 
         Those without arguments may stand there without parentheses, as long as the line holds
         nothing else before them: ``OpenGripper -> Pick(robot, cup)``.
         """
         calls = find_calls(line)
-        steps: list[Call] = []
+        steps: list[Step] = []
         end, is_list = 0, not line.endswith(":")
         for call in (*calls, None):
             for piece in _PIECE.finditer(line, end, call.start if call else len(line)):
                 name = piece.group().strip(" \"'[].")
                 is_list = is_list and (not name or self._is_skill(name))
                 if name and is_list:
-                    steps.append(Call(name, (), piece.start(), piece.end()))
+                    steps.append(self._step(Call(name, (), piece.start(), piece.end())))
             if call:
-                steps.append(call)
+                steps.append(self._step(call))
                 end = call.end
-        return steps
+        return tuple(steps)
+
+    def _step(self, call: Call) -> Step:
+        return Step(call.name, call.start, self._read(call))
 
     def _is_skill(self, written: str) -> bool:
         return len(written) <= _LONGEST_NAME and self._skill_names.find_exact(written) is not None
 
-    def read(self, call: Call) -> SkillInstance | str:
+    def _read(self, call: Call) -> SkillInstance | str:
         """The skill instance that was meant, or why it cannot be told."""
         name = self._skill_names.find(call.name)
         if name is None:

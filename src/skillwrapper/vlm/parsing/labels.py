@@ -13,12 +13,10 @@ from functools import lru_cache
 from skillwrapper.symbols.predicates import Atom
 from skillwrapper.vlm.parsing.layout import verdicts_by_line
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
-from skillwrapper.vlm.parsing.markup import Line
+from skillwrapper.vlm.parsing.memory import remembering
 from skillwrapper.vlm.parsing.statements import LineReading, Statement, StatementReader
 from skillwrapper.vlm.parsing.verdicts import Reading, Said, Verdict, borne_out
 
-_MOST_REMEMBERED = 8192
-_LONGEST_REMEMBERED = 300
 _MOST_COMPLAINTS = 100
 
 
@@ -58,10 +56,10 @@ class _LabelReader:
     def __init__(self, atoms: tuple[Atom, ...]) -> None:
         self._atoms = atoms
         self._statements = StatementReader(atoms)
-        self._known: dict[Line, LineReading] = {}
+        self._read_line = remembering(self._statements.read, lambda line: len(line.whole))
 
     def read(self, reply: str) -> ParsedLabels:
-        readings = [self._read(line) for line in reply_lines(reply)]
+        readings = [self._read_line(line) for line in reply_lines(reply)]
         claims = list(_claims(readings))
         usable = borne_out([said for _, _, said in claims])
         labels: dict[Atom, bool | None] = {}
@@ -82,14 +80,6 @@ class _LabelReader:
             unusable.append(f"no labels in the reply: '{excerpt(reply)}'")
         missing = tuple(a for a in self._atoms if a not in labels)
         return ParsedLabels(labels, missing, tuple(unusable[:_MOST_COMPLAINTS]))
-
-    def _read(self, line: Line) -> LineReading:
-        known = self._known.get(line)
-        if known is None:
-            known = self._statements.read(line)
-            if len(self._known) < _MOST_REMEMBERED and len(line.whole) <= _LONGEST_REMEMBERED:
-                self._known[line] = known
-        return known
 
 
 def _claims(readings: Sequence[LineReading]) -> Iterator[tuple[str, Statement, Reading]]:

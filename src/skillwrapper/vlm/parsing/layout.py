@@ -43,6 +43,8 @@ class _Part:
 
 def verdicts_by_line(readings: Sequence[LineReading]) -> dict[int, Verdict]:
     """The verdicts for lines with statements that come from other lines."""
+    if all(reading.verdict is None for reading in readings):
+        return {}
     parts = list(_parts(readings))
     headings = [n for n, part in enumerate(parts) if part.reading.is_heading]
     if not headings:

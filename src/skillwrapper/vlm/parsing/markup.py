@@ -5,10 +5,10 @@ from __future__ import annotations
 import html
 import re
 import unicodedata
-from functools import lru_cache
 from typing import NamedTuple
 
-_LONGEST_KEPT_LINE = 300
+from skillwrapper.vlm.parsing.memory import remembering
+
 _NEW_LINE_TAG = re.compile(r"</?(?:br|p|li|ul|ol|tr|table|thead|tbody|div)\s?/?>", re.IGNORECASE)
 _CELL_TAG = re.compile(r"</t[dh]>\s?", re.IGNORECASE)
 _TAG = re.compile(
@@ -41,7 +41,6 @@ _SIGNS = {
     "\ufe0f": "",
 }
 _PLAIN_SIGNS = str.maketrans(_SIGNS)
-_WITHOUT_MARKUP = str.maketrans({"*": None, "`": None})
 _CIRCLED = str.maketrans({chr(0x2460 + n): f"{n + 1}. " for n in range(20)})
 _KEY = re.compile(r"([A-Za-z][A-Za-z _-]{1,30}?) ?#?\d{0,3} ?[:=] ?(?=(.*+))")
 _DEEPEST_LEAD = 5
@@ -82,20 +81,18 @@ def without_tags(text: str) -> str:
     return text
 
 
-def plain_line(written: str) -> Line:
-    """One line without markup; the fence of a code block is an empty line."""
-    return _known_line(written) if len(written) <= _LONGEST_KEPT_LINE else _plain_line(written)
-
-
 def _plain_line(written: str) -> Line:
+    """One line without markup; the fence of a code block is an empty line."""
     text = written
     if not text.isascii():
-        text = unicodedata.normalize("NFKC", text.translate(_CIRCLED))
-    text = " ".join(text.translate(_PLAIN_SIGNS).split())
+        text = unicodedata.normalize("NFKC", text.translate(_CIRCLED)).translate(_PLAIN_SIGNS)
+    text = text.strip()
     if _FENCE.fullmatch(text):
         return Line("", "")
     bold = _BOLD.match(text) is not None
-    whole = " ".join(_ESCAPED.sub(r"\1", text).translate(_WITHOUT_MARKUP).split())
+    if "\\" in text:
+        text = _ESCAPED.sub(r"\1", text)
+    whole = " ".join(text.replace("*", "").replace("`", "").split())
     text = _without_lead(whole)
     number = _NUMBER.match(whole)
     field = _KEY.match(text)
@@ -111,7 +108,7 @@ def _plain_line(written: str) -> Line:
     )
 
 
-_known_line = lru_cache(maxsize=8192)(_plain_line)
+plain_line = remembering(_plain_line, len)
 
 
 def _without_lead(line: str) -> str:

@@ -6,19 +6,22 @@ import difflib
 import re
 from collections.abc import Iterable, Sequence
 
+from skillwrapper.vlm.parsing.memory import remembering
+
 _ARTICLE = re.compile(r"(?:the|an?) ", re.IGNORECASE)
 _DIGITS = re.compile(r"\d")
 _LONGEST_NAME = 60
 _SIMILAR = 0.8
 _LEAD = 0.08
-_MOST_GUESSES = 400
-"""How many different misspelt names are looked into; a reply with more is noise."""
 _MOST_REMEMBERED = 4096
 
 
-def fold(name: str) -> str:
+def _fold(name: str) -> str:
     """A name without case and separators: ``Top_Bun`` and ``top bun`` are one."""
-    return "".join(c for c in name.casefold() if c.isalnum())
+    return "".join(filter(str.isalnum, name.casefold()))
+
+
+fold = remembering(_fold, len)
 
 
 def words_of(text: str) -> tuple[str, ...]:
@@ -27,7 +30,7 @@ def words_of(text: str) -> tuple[str, ...]:
 
 
 class NameIndex:
-    """Looks up names; remembers what it found, and looks into so many misspelt ones only.
+    """Looks up names; remembers what it found.
 
     Args:
         names: the names that exist.
@@ -39,7 +42,7 @@ class NameIndex:
         for name in self._names:
             self._folded.setdefault(fold(name), []).append(name)
         self._found: dict[str, str | None] = {name: name for name in self._names}
-        self._guesses = 0
+        self._letters = {name: _letters(name) for name in self._folded}
 
     def find(self, written: str) -> str | None:
         """The name that was meant; None if there is none, or more than one comes near."""
@@ -74,16 +77,21 @@ class NameIndex:
             return exact
         if given in self._folded or given.rstrip("0123456789") in self._folded:
             return None
-        self._guesses += 1
-        return self._nearest(given) if self._guesses <= _MOST_GUESSES else None
+        return self._nearest(given)
 
     def _nearest(self, given: str) -> str | None:
         digits = _DIGITS.findall(given)
+        letters = _letters(given)
         compare = difflib.SequenceMatcher(None, b=given, autojunk=False)
         scores = []
         for known in self._folded:
-            compare.set_seq1(known)
-            if _DIGITS.findall(known) == digits and compare.quick_ratio() >= _SIMILAR - _LEAD:
+            # Comparing is slow: first what it can be at most, by the letters that only one has.
+            others = (letters & ~self._letters[known]).bit_count()
+            lacking = (self._letters[known] & ~letters).bit_count()
+            common = min(len(given) - others, len(known) - lacking)
+            at_most = 2 * common / (len(given) + len(known))
+            if at_most >= _SIMILAR - _LEAD and _DIGITS.findall(known) == digits:
+                compare.set_seq1(known)
                 scores.append((compare.ratio(), known))
         scores.sort(reverse=True)
         if not scores or scores[0][0] < _SIMILAR:
@@ -92,3 +100,11 @@ class NameIndex:
             return None
         same = self._folded[scores[0][1]]
         return same[0] if len(same) == 1 else None
+
+
+def _letters(name: str) -> int:
+    """Which letters a name has, as bits; some share one."""
+    bits = 0
+    for letter in set(name):
+        bits |= 1 << ord(letter) % 61
+    return bits

@@ -21,6 +21,8 @@ _NAME = re.compile(r"[\"']?([A-Za-z][\w-]{0,80}(?: [A-Za-z][\w-]{0,80}){0,5})[\"
 _NULLARY = re.compile(
     r"[\"']?([A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8})[\"']? ?(?=[:=|]|- |->)"
 )
+_OTHER_SIGNATURE = re.compile(r"\(|[A-Za-z][\w-]{0,80}\[")
+"""The manner of Lisp, and square brackets."""
 _SEPARATOR = re.compile(
     r"[\"']? ?(?:[:=|;.-]|->|=>|:=|means\b|iff\b|is true (?:if|when|iff)\b)[ :=|>-]{0,8}"
 )
@@ -104,8 +106,8 @@ def _read_signature(text: str) -> tuple[str, tuple[str, ...], str] | None:
     )
     if named and calls and calls[0].start == 0:
         return named.group(1), calls[0].arguments, text[named.end() + calls[0].end - 1 :]
-    calls = find_calls(text)
-    if calls and calls[0].start == 0:  # in the manner of Lisp, or in square brackets
+    calls = find_calls(text) if _OTHER_SIGNATURE.match(text) else []
+    if calls and calls[0].start == 0:
         return calls[0].name, calls[0].arguments, text[calls[0].end :]
     nullary = _NULLARY.match(text)
     return (nullary.group(1), (), text[nullary.end() :]) if nullary else None

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from skillwrapper.vlm.parsing.calls import Call
-from skillwrapper.vlm.parsing.instances import InstanceReader
+from skillwrapper.vlm.parsing.instances import Step, instance_reader
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.vlm.parsing.markup import Line
 from skillwrapper.world.skills import Skill, SkillInstance
@@ -35,9 +34,9 @@ class ParsedSequences:
     unusable: tuple[str, ...]
 
 
-class _Step(NamedTuple):
+class _Listed(NamedTuple):
     line: Line
-    calls: tuple[Call, ...]
+    steps: tuple[Step, ...]
 
     @property
     def is_heading(self) -> bool:
@@ -48,17 +47,16 @@ def parse_sequences(
     reply: str, skills: Sequence[Skill], objects: Sequence[Object]
 ) -> ParsedSequences:
     """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
-    reader = InstanceReader(skills, objects)
-    lines = [_Step(line, tuple(reader.steps(line.text))) for line in reply_lines(reply)]
+    reader = instance_reader(tuple(skills), tuple(objects))
+    lines = [_Listed(line, reader.steps(line.text)) for line in reply_lines(reply)]
     sequences, unusable = [], []
     for group in _group(lines):
         steps = []
-        for call in group:
-            instance = reader.read(call)
-            if isinstance(instance, str):
-                unusable.append(excerpt(instance, 160))
+        for step in group:
+            if isinstance(step.meant, str):
+                unusable.append(excerpt(step.meant, 160))
             else:
-                steps.append(instance)
+                steps.append(step.meant)
         if steps:
             sequences.append(tuple(steps))
     if not sequences and not unusable:
@@ -66,28 +64,28 @@ def parse_sequences(
     return ParsedSequences(tuple(sequences), tuple(unusable))
 
 
-def _group(lines: list[_Step]) -> list[list[Call]]:
-    """Calls that belong together."""
+def _group(lines: list[_Listed]) -> list[list[Step]]:
+    """Skills that belong together."""
     if any(line.is_heading for line in lines):
         return _split(lines, [line.is_heading for line in lines])
-    if any(len(line.calls) > 1 for line in lines):
-        return _split(lines, [bool(line.calls) for line in lines])
+    if any(len(line.steps) > 1 for line in lines):
+        return _split(lines, [bool(line.steps) for line in lines])
     groups = _split(lines, _starts_by_paragraph(lines))
     if all(len(group) <= 1 for group in groups):  # one list with empty lines in between
-        return [[call for group in groups for call in group]]
+        return [[step for group in groups for step in group]]
     return groups
 
 
-def _split(lines: list[_Step], starts: list[bool]) -> list[list[Call]]:
-    groups: list[list[Call]] = [[]]
+def _split(lines: list[_Listed], starts: list[bool]) -> list[list[Step]]:
+    groups: list[list[Step]] = [[]]
     for line, starts_here in zip(lines, starts, strict=True):
         if starts_here:
             groups.append([])
-        groups[-1].extend(line.calls)
+        groups[-1].extend(line.steps)
     return [group for group in groups if group]
 
 
-def _starts_by_paragraph(lines: list[_Step]) -> list[bool]:
+def _starts_by_paragraph(lines: list[_Listed]) -> list[bool]:
     starts = []
     last_number: int | None = None
     for line in lines:
