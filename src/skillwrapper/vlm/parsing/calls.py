@@ -29,7 +29,8 @@ class Call:
         arguments: as written, split at commas; typed lists of PDDL are split as well.
         start: where it begins in the line.
         end: one past where it ends.
-        tight: whether name and parenthesis touch, which they seldom do in prose.
+        tight: whether it is in the usual form, name and parenthesis touching, which is rare in
+            prose.
     """
 
     name: str
@@ -103,7 +104,8 @@ def _lisp_calls(line: str, spans: list[tuple[int, int, str, int, bool]]) -> Iter
         end = start
         words = line[inside : -negative_end - 1].split()
         if words and all(word == "-" or _NAME.fullmatch(word) for word in words):
-            yield Call(words[0], _typed(" ".join(words[1:]), spaced=True), start, -negative_end)
+            arguments = _typed(" ".join(words[1:]), spaced=True)
+            yield Call(words[0], arguments, start, -negative_end, tight=False)
 
 
 def _split(inside: str) -> tuple[str, ...]:

@@ -47,9 +47,25 @@ def verdicts_by_line(readings: Sequence[LineReading]) -> dict[int, Verdict]:
         return {}
     parts = list(_parts(readings))
     headings = [n for n, part in enumerate(parts) if part.reading.is_heading]
-    if not headings:
-        return _of_bare_verdicts(parts)
-    return _of_bare_verdicts(parts[: headings[0]]) | _below_headings(parts, headings[0])
+    first = headings[0] if headings else len(parts)
+    placed = _of_bare_verdicts(parts[:first])
+    if headings:
+        placed |= _below_headings(parts, first)
+    return placed | _second_verdicts(parts)
+
+
+def _second_verdicts(parts: Sequence[_Part]) -> dict[int, Verdict]:
+    """Verdicts below statements that have another one."""
+    found: dict[int, Verdict] = {}
+    above: _Part | None = None
+    for part in parts:
+        if part.is_statement:
+            above = part
+        elif above and part.verdict and not part.reading.is_heading:
+            said = [s.said for s in above.reading.statements if isinstance(s.said, Verdict)]
+            if any(verdict.value is not part.verdict.value for verdict in said):
+                found[above.number] = part.verdict
+    return found
 
 
 def _parts(readings: Sequence[LineReading]) -> Iterator[_Part]:
@@ -92,11 +108,12 @@ def _below_bare(parts: Sequence[_Part], places: Sequence[int]) -> dict[int, Verd
     for n in places:
         following = parts[n + 1] if n + 1 < len(parts) else None
         heads = following is not None and following.is_statement
-        if not heads or parts[n].touches_last:
+        if not heads or parts[n].touches_last or not parts[n].reading.is_pure:
             return {}
         if following and not (following.touches_last or parts[n].reading.is_bold):
             return {}
-    return _below(parts)
+    headed = (part for part in parts if part.is_statement)
+    return _below(parts) if all(part.reading.is_open for part in headed) else {}
 
 
 def _below_headings(parts: Sequence[_Part], first: int) -> dict[int, Verdict]:

@@ -7,7 +7,8 @@ from skillwrapper.vlm.parsing.markup import Line, plain_line, without_tags
 from skillwrapper.vlm.parsing.records import join_records
 from skillwrapper.vlm.parsing.structured import flatten_json
 
-_LONGEST_REPLY = 100_000
+LONGEST_REPLY = 100_000
+"""Characters, reasoning aside; no answer to any of our questions comes near."""
 
 
 def reply_lines(reply: str) -> list[Line]:
@@ -18,8 +19,8 @@ def reply_lines(reply: str) -> list[Line]:
     any sensible one is read up to a limit.
     """
     text = answer_of(reply)
-    if len(text) > _LONGEST_REPLY:
-        text = text[:_LONGEST_REPLY].rpartition("\n")[0]
+    if len(text) > LONGEST_REPLY:
+        text = text[:LONGEST_REPLY].rpartition("\n")[0]
     text = clean_text(flatten_json(without_tags(text)))
     if "\n" not in text.strip():  # line breaks that were escaped once too often
         text = text.replace("\\n", "\n")

@@ -16,6 +16,7 @@ from skillwrapper.vlm.parsing.verdicts import (
     Said,
     Verdict,
     is_link,
+    is_nothing_but_verdict,
     is_supposed,
     is_verdict,
     said_alone,
@@ -54,6 +55,7 @@ class LineReading:
         leads: whether it begins with one, rather than mentioning them.
         verdict: what it says if it holds no grounding: of one above or below it.
         is_heading: whether the verdict is marked as the heading of what is below.
+        is_pure: whether the line holds nothing but the verdict.
         is_bold: whether the line begins in bold.
         ends_group: whether it is the heading of something else.
     """
@@ -63,6 +65,7 @@ class LineReading:
     leads: bool = False
     verdict: Verdict | None = None
     is_heading: bool = False
+    is_pure: bool = False
     is_bold: bool = False
     ends_group: bool = False
 
@@ -134,7 +137,8 @@ def _without_statement(line: Line) -> LineReading:
         return LineReading(line.text, verdict=heading, is_heading=True)
     alone = said_alone(line.text)
     if isinstance(alone, Verdict):
-        return LineReading(line.text, verdict=alone, is_bold=line.bold)
+        pure = is_nothing_but_verdict(line.text)
+        return LineReading(line.text, verdict=alone, is_pure=pure, is_bold=line.bold)
     return LineReading(line.text, ends_group=line.titled or line.text.endswith(":"))
 
 

@@ -7,7 +7,7 @@ nothing: ``Said.AMBIGUOUS``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from enum import Enum
 from typing import NamedTuple
 
@@ -100,6 +100,7 @@ _CONDITION = frozenset(
 _CORRECTION = frozenset(
     words_of("wait actually correction sorry hmm oops scratch strike rather instead or")
 )
+_CHATTER = frozenset(words_of("here let sure certainly of okay ok below i'll i'd thanks as now"))
 _OTHERS = frozenset(["others", "other", "rest", "remaining", "everything", "else"])
 _SUPPOSED = frozenset(words_of("if unless whether assuming suppose supposing either neither when"))
 _LINKS = frozenset(("and", "or", "nor", "&", "/", "and/or", "as well as"))
@@ -117,7 +118,7 @@ _CHOICE = re.compile(
 )
 _SEGMENT = re.compile(r"[,;:|()\[\]{}\"=]|(?:(?<= )|^)-{1,3}(?= |$)|-{0,2}>|[.!](?= |$)")
 _MARKS = "".join(word for word in _WORDS if not word.isalnum() and len(word) == 1)
-_WORD = re.compile(rf"n/a|[^\W_]++(?:['-][^\W_]++)*+|[{_MARKS}¬]", re.I)
+_WORD = re.compile(rf"n/a|[^\W_]++(?:['-][^\W_]++){{0,8}}|[{_MARKS}¬]", re.I)
 _BOX = re.compile(r"\[ ?([xX✓✔]?) ?\]")
 _NOT_IN_FRONT = re.compile(r"(?:\bnot |[¬~]|(?:^|(?<=[ (]))!) ?\(?$", re.IGNORECASE)
 _LONGEST = 400
@@ -127,6 +128,11 @@ _PHRASE_STARTS_BY = 24
 def is_verdict(word: str) -> bool:
     """Whether a word says that something is true, is false or cannot be told."""
     return word.casefold() in _WORDS
+
+
+def is_nothing_but_verdict(text: str) -> bool:
+    """Whether a text gives a verdict, and neither reasons nor anything else."""
+    return len(text) < _LONGEST and isinstance(_phrase(_words(text)), Verdict)
 
 
 def is_supposed(text: str) -> bool:
@@ -140,21 +146,21 @@ def is_link(text: str) -> bool:
     return text[:20].strip(" ,").casefold() in _LINKS
 
 
-def borne_out(readings: Iterable[Reading]) -> frozenset[Family]:
+def borne_out(said: Sequence[Reading]) -> frozenset[Family]:
     """The kinds of verdicts that count in a reply that says all this.
 
-    Single letters and digits count where no word is used, digits if there are no numbers but 0
-    and 1, crosses beside ticks, and empty boxes beside ticked ones.
+    Letters and digits count where no word is used: letters if there are several, digits if there
+    are no numbers but 0 and 1. Crosses count beside ticks, and empty boxes beside ticked ones.
     """
-    said = set(readings)
-    verdicts = {reading for reading in said if isinstance(reading, Verdict)}
+    verdicts = [reading for reading in said if isinstance(reading, Verdict)]
+    letters = sum(v.family is Family.LETTER for v in verdicts)
     worded = any(v.family is Family.WORD and v.value is not None for v in verdicts)
     ticked = any(v.family in {Family.MARK, Family.BOX} and v.value is True for v in verdicts)
     boxed = Verdict(True, Family.BOX) in verdicts
     counts = {
         Family.WORD: True,
         Family.MARK: True,
-        Family.LETTER: not worded,
+        Family.LETTER: not worded and letters > 1,
         Family.DIGIT: not worded and Said.NUMBER not in said,
         Family.CROSS: ticked,
         Family.BOX: boxed,
@@ -208,8 +214,19 @@ def said_alone(text: str) -> Reading:
     said = said_behind(text)
     if not isinstance(said, Verdict) or said.family in {Family.DIGIT, Family.CROSS}:
         return Said.NOTHING
-    words = _words(text[:_LONGEST])
-    return Said.NOTHING if "?" in words or not _OTHERS.isdisjoint(words) else said
+    if "?" in text[:_LONGEST] or not _OTHERS.isdisjoint(_words(text[:_LONGEST])):
+        return Said.NOTHING
+    return said if _is_judgement(text) else Said.NOTHING
+
+
+def _is_judgement(text: str) -> bool:
+    """Whether a line gives a verdict, perhaps with a reason: "Yes, here they are" does not."""
+    pieces = [_words(segment) for segment in _segments(text)]
+    first = next(n for n, words in enumerate(pieces) if _phrase(words) is not Said.FILLING)
+    verdict_at = next((n for n, word in enumerate(pieces[first]) if word in _WORDS), None)
+    behind = pieces[first][verdict_at + 1 :][:1] if verdict_at is not None else []
+    following = pieces[first + 1][:1] if len(pieces) > first + 1 else []
+    return _REASON.issuperset(behind) and _CHATTER.isdisjoint(following)
 
 
 def said_as_heading(text: str, *, titled: bool) -> Reading:
