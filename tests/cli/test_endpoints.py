@@ -15,7 +15,7 @@ from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.learn import learn
+from skillwrapper.runs.launch import learn
 from skillwrapper.runs.models import open_model
 from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
 from skillwrapper.vlm.protocol import Role, VisionLanguageModel

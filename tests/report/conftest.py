@@ -4,13 +4,13 @@ import pytest
 
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.invention.settings import LearningSettings
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.learn import learn
+from skillwrapper.runs.archive import RunArchive
+from skillwrapper.runs.launch import learn
 from skillwrapper.runs.settings import ModelSettings, RunSettings
 
 
 @pytest.fixture(scope="session")
-def run(tmp_path_factory: pytest.TempPathFactory) -> RunFolder:
+def run(tmp_path_factory: pytest.TempPathFactory) -> RunArchive:
     """A short, noisy run of the embedded model."""
     config = RunSettings(
         domain="burger",
@@ -22,4 +22,4 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> RunFolder:
     )
     path = tmp_path_factory.mktemp("report") / "run"
     learn(config, path)
-    return RunFolder.open(Path(path))
+    return RunArchive.open(Path(path))

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from skillwrapper.report import write_report
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 QUIET = (
@@ -47,7 +47,7 @@ def browse(folder: Path, *arguments: str) -> str:
     return done.stdout
 
 
-def test_the_page_is_drawn(run: RunFolder, tmp_path: Path) -> None:
+def test_the_page_is_drawn(run: RunArchive, tmp_path: Path) -> None:
     page = write_report(run, tmp_path / "report.html")
     picture = tmp_path / "page.png"
     browse(tmp_path, "--window-size=1280,2400", f"--screenshot={picture}", page.as_uri())
@@ -61,7 +61,7 @@ def test_the_page_is_drawn(run: RunFolder, tmp_path: Path) -> None:
 
 
 def test_pictures_are_decoded_and_nothing_runs_over_a_narrow_page(
-    run: RunFolder, tmp_path: Path
+    run: RunArchive, tmp_path: Path
 ) -> None:
     """A page around it measures it, as nothing in the report itself may run."""
     report = write_report(run, tmp_path / "report.html").read_text()

@@ -2,10 +2,10 @@ from pathlib import Path
 
 import pytest
 
-from skillwrapper.errors import RunFolderError
+from skillwrapper.errors import FileError
 from skillwrapper.report.charts import LineChart, Series, round_steps
-from skillwrapper.report.labels import RecordedLabels
 from skillwrapper.report.strips import Cell, lay_out
+from skillwrapper.runs.archive import RecordedLabels
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation, Picture
 from skillwrapper.world.scenes import Scene
@@ -48,7 +48,7 @@ def test_a_truth_table_has_a_header_for_every_scene(tmp_path: Path) -> None:
 def test_a_damaged_truth_table_is_refused_with_its_line(tmp_path: Path) -> None:
     path = tmp_path / "t.csv"
     path.write_text("observation,free(c)\ny,maybe\n")
-    with pytest.raises(RunFolderError, match=r"t\.csv:2: expected 1 labels of 1, 0 or \?"):
+    with pytest.raises(FileError, match=r"t\.csv:2: expected 1 labels of 1, 0 or \?"):
         RecordedLabels.read(path)
 
 

@@ -18,8 +18,8 @@ from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import NONSENSE, PASSING, FaultPlan
 from skillwrapper.errors import LimitReachedError, ModelNotFoundError, RunFolderError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.folder import held
-from skillwrapper.runs.learn import learn
+from skillwrapper.runs.archive import reserved
+from skillwrapper.runs.launch import learn
 from skillwrapper.runs.models import open_model
 from skillwrapper.runs.settings import CallSettings, ModelSettings, RunSettings
 from skillwrapper.vlm.protocol import (
@@ -131,7 +131,7 @@ def test_a_finished_run_is_not_replaced_by_a_shorter_one(tmp_path: Path) -> None
 
 def test_two_processes_do_not_learn_in_one_folder(tmp_path: Path) -> None:
     run = tmp_path / "run"
-    with held(run), pytest.raises(RunFolderError, match="another process is learning"):
+    with reserved(run), pytest.raises(RunFolderError, match="another process is learning"):
         learn(config(), run)
     assert not run.exists()
     learn(config(), run)
@@ -161,7 +161,7 @@ import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from test_resuming import config
-from skillwrapper.runs.learn import learn
+from skillwrapper.runs.launch import learn
 learn(config(sys.argv[2]), Path(sys.argv[3]))
 """
 

@@ -25,9 +25,9 @@ from skillwrapper.cli.setting_options import (
 )
 from skillwrapper.cli.stopping import time_limit
 from skillwrapper.runs.estimate import estimate_run
-from skillwrapper.runs.learn import learn as run_learning
-from skillwrapper.runs.loop import LearningResult
+from skillwrapper.runs.launch import learn as run_learning
 from skillwrapper.runs.models import check_models
+from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
 
 
@@ -77,10 +77,10 @@ def learn(
         return
     limit = settings.calls.max_seconds
     with RunProgress(messages()) as progress, time_limit(limit):
-        result = run_learning(settings, out, progress)
+        result = run_learning(settings, out, observers=[progress])
     if as_json:
         calls = {"model_calls": progress.calls, "calls_made": progress.calls_made}
-        print_json({"run": str(out), **calls, **result.to_json()})
+        print_json({"run": str(out), **calls, **result.figures.model_dump()})
     else:
         _print_result(out, result)
 
@@ -96,16 +96,16 @@ def _estimate(settings: RunSettings, as_json: bool) -> None:
 
 def _print_result(out: Path, result: LearningResult) -> None:
     console = results()
-    figures = result.to_json()
-    learned = f"{figures['predicates']} predicates, {figures['operators']} operators"
-    console.print(Text.assemble((learned, "bold"), f" from {figures['executions']} executions"))
+    figures = result.figures
+    learned = f"{figures.predicates} predicates, {figures.operators} operators"
+    console.print(Text.assemble((learned, "bold"), f" from {figures.executions} executions"))
     for predicate in result.fit.predicates:
         console.print(f"  {predicate.signature}: {predicate.semantics}", markup=False)
-    broken = figures["lemma1_violations"] + figures["theorem1_violations"]
-    colour = "green" if broken == 0 and not figures["inconsistencies"] else "yellow"
+    broken = figures.lemma1_violations + figures.theorem1_violations
+    colour = "green" if broken == 0 and not figures.inconsistencies else "yellow"
     console.print(
-        f"Lemma 1: {figures['lemma1_violations']} violations, Theorem 1: "
-        f"{figures['theorem1_violations']} violations, {figures['inconsistencies']} "
+        f"Lemma 1: {figures.lemma1_violations} violations, Theorem 1: "
+        f"{figures.theorem1_violations} violations, {figures.inconsistencies} "
         f"inconsistencies left",
         style=colour,
     )

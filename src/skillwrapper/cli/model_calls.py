@@ -25,10 +25,10 @@ from skillwrapper.domains.eyesight import Eyesight
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FAULTS, FaultPlan
+from skillwrapper.errors import RunFolderError
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.doctor import examine
-from skillwrapper.runs.folder import RunFolder
 from skillwrapper.vlm.protocol import Role
-from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, CallTotals, StoredCall
 
 
@@ -49,9 +49,11 @@ def calls(
     as_json: JsonFlag = False,
 ) -> None:
     """List the model calls of a run, and what they took in all."""
-    folder = RunFolder.open(run)
-    readings = _readings(folder)
-    with CallStore(folder.calls, read_only=True) as store:
+    archive = RunArchive.open(run)
+    readings = _readings(archive)
+    with archive.open_calls() as store:
+        if store is None:
+            raise RunFolderError(f"{run}: expected recorded model calls, got none")
         found = list(store.calls(role=role, iteration=iteration, status=status))
         totals = [
             t for t in store.totals() if role in {None, t.role} and iteration in {None, t.iteration}
@@ -146,18 +148,13 @@ def vlm_server(
         messages().print("stopped")
 
 
-def _readings(folder: RunFolder) -> dict[str, int] | None:
+def _readings(archive: RunArchive) -> dict[str, int] | None:
     """Calls that reading pictures took, and what asking everything again would have taken."""
-    last = folder.finished_iterations()
-    if not last:
+    finished = archive.iterations()
+    if not finished:
         return None
-    summary = json.loads((folder.iteration(last) / "summary.json").read_text(encoding="utf-8"))
-    if "evaluation_calls" not in summary:  # made by a version that did not count them
-        return None
-    return {
-        "needed": summary["evaluation_calls"],
-        "reasking": summary["evaluation_calls_reasking"],
-    }
+    summary = finished[-1].summary
+    return {"needed": summary.evaluation_calls, "reasking": summary.evaluation_calls_reasking}
 
 
 def _describe_readings(needed: int, reasking: int) -> str:

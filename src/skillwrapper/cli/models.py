@@ -11,8 +11,9 @@ from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.verification import print_curve, print_verification, run_verification
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.archive import ArchivedIteration, RunArchive
+from skillwrapper.runs.archive.pictures import PictureStore
+from skillwrapper.runs.archive.records import to_plain
 from skillwrapper.symbols.describe import describe_operator
 from skillwrapper.symbols.pddl import print_domain
 
@@ -31,13 +32,14 @@ def show(
     as_json: JsonFlag = False,
 ) -> None:
     """Show predicates, operators and certificate of a run."""
-    learned = LearnedRun.read(RunFolder.open(run))
+    archive = RunArchive.open(run)
+    learned = archive.latest()
     if as_json:
         print_json(_describe(learned))
     elif pddl:
         typer.echo(print_domain(learned.model), nl=False)
     else:
-        _print(learned)
+        _print(learned, archive.pictures)
 
 
 def verify(
@@ -54,8 +56,7 @@ def verify(
     as_json: JsonFlag = False,
 ) -> None:
     """Compare the model with the domain in every reachable state, read from its picture."""
-    learned = LearnedRun.read(RunFolder.open(run))
-    checked = run_verification(learned, layout_seed, messages(), curve=curve)
+    checked = run_verification(RunArchive.open(run), layout_seed, messages(), curve=curve)
     if as_json:
         print_json(checked.to_json())
         return
@@ -64,10 +65,10 @@ def verify(
         print_curve(checked.curve, results())
 
 
-def _describe(learned: LearnedRun) -> dict[str, object]:
+def _describe(learned: ArchivedIteration) -> dict[str, object]:
     model = learned.model
     return {
-        "summary": learned.summary,
+        "summary": to_plain(learned.summary),
         "predicates": [
             {
                 "name": p.name,
@@ -78,12 +79,12 @@ def _describe(learned: LearnedRun) -> dict[str, object]:
             for p in model.predicates
         ],
         "operators": [describe_operator(o, learned.untested(o)) for o in model.operators],
-        "certificate": learned.certificate,
-        "unresolved": learned.unresolved,
+        "certificate": to_plain(learned.certificate),
+        "unresolved": [to_plain(cause) for cause in learned.unresolved],
     }
 
 
-def _print(learned: LearnedRun) -> None:
+def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:
     console = results()
     console.print("predicates", style="bold")
     for predicate in learned.model.predicates:
@@ -98,30 +99,34 @@ def _print(learned: LearnedRun) -> None:
             console.print(f"  {line}", markup=False)
         console.print("")
     _print_certificate(learned)
+    _print_unresolved(learned, pictures)
 
 
-def _print_certificate(learned: LearnedRun) -> None:
+def _print_certificate(learned: ArchivedIteration) -> None:
     console, certificate = results(), learned.certificate
     table = Table.grid(padding=(0, 2))
-    table.add_row("transitions", str(certificate["transitions"]))
-    table.add_row("decided", str(certificate["decided"]))
-    table.add_row("undecided (unknown labels)", str(certificate["undecided"]))
-    table.add_row("successes that changed nothing", str(certificate["no_ops"]))
-    table.add_row("violations of Lemma 1", str(certificate["lemma1_violations"]))
-    table.add_row("violations of Theorem 1", str(certificate["theorem1_violations"]))
-    table.add_row("inconsistencies left", str(learned.summary["inconsistencies"]))
+    table.add_row("transitions", str(certificate.transitions))
+    table.add_row("decided", str(certificate.decided))
+    table.add_row("undecided (unknown labels)", str(certificate.undecided))
+    table.add_row("successes that changed nothing", str(certificate.no_ops))
+    table.add_row("violations of Lemma 1", str(certificate.lemma1_violations))
+    table.add_row("violations of Theorem 1", str(certificate.theorem1_violations))
+    table.add_row("inconsistencies left", str(learned.summary.inconsistencies))
     console.print(Text.assemble(("certificate", "bold"), " (on the recorded data)"))
     console.print(table)
-    for violation in certificate["violations"]:
+    for violation in certificate.violations:
         console.print(
-            f"  {violation['statement']}: {violation['skill']}, transition "
-            f"{violation['transition']}: {violation['reason']}",
+            f"  {violation.statement}: {violation.skill}, transition {violation.transition}: "
+            f"{violation.reason}",
             markup=False,
         )
+
+
+def _print_unresolved(learned: ArchivedIteration, pictures: PictureStore) -> None:
+    console = results()
     for cause in learned.unresolved:
-        who = " / ".join(w["instance"] for w in cause["witnesses"])
-        console.print(f"  unresolved ({cause['kind']}): {who}", markup=False)
-        for witness in cause["witnesses"]:
-            for sha in witness["before"]:
-                path = learned.folder.path / "images" / f"{sha}.png"
-                console.print(f"    {witness['instance']}: {path}", markup=False)
+        who = " / ".join(w.instance for w in cause.witnesses)
+        console.print(f"  unresolved ({cause.kind}): {who}", markup=False)
+        for witness in cause.witnesses:
+            for sha in witness.before:
+                console.print(f"    {witness.instance}: {pictures.path(sha)}", markup=False)

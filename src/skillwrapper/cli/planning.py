@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from contextlib import closing
+from functools import reduce
 from pathlib import Path
 from typing import Annotated
 
@@ -10,26 +12,28 @@ import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.grounding import AtomSpace
-from skillwrapper.perception.truth_table import TruthTable
+from skillwrapper.errors import GoalError
 from skillwrapper.planning.execution import ExecutionReport, attempt
 from skillwrapper.planning.gif import save_gif
-from skillwrapper.planning.goals import Goal, goal_from_state, parse_goal
-from skillwrapper.planning.planner import Planner, PlannerSettings
+from skillwrapper.planning.goals import Goal
 from skillwrapper.planning.result import PlanningResult, PlanningStatus
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.learned import LearnedRun
-from skillwrapper.runs.model_sessions import open_session
-from skillwrapper.world.environment import Environment
+from skillwrapper.runs.learned_model import LearnedModel, is_picture_file
 from skillwrapper.world.observation import Observation
-from skillwrapper.world.pictures import load_picture
+from skillwrapper.world.pictures import load_pictures
 
 RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
 GoalOption = Annotated[
-    str, typer.Option(help="A picture of the goal, or an expression: '(and (p a) (not (q b)))'.")
+    list[str],
+    typer.Option(
+        help="A picture of the goal ([CAMERA=]FILE), or an expression: '(and (p a) (not (q b)))'; "
+        "repeatable."
+    ),
 ]
 GoalReading = Annotated[
     bool, typer.Option("--positive", help="Of a goal picture, take what is true only.")
+]
+SceneOption = Annotated[
+    str | None, typer.Option(help="Name of the scene; default: the domain's first one.")
 ]
 PlansOption = Annotated[int, typer.Option(min=1, help="How many plans at most.")]
 LimitOption = Annotated[float, typer.Option(min=0.1, help="Seconds for the planner.")]
@@ -43,8 +47,11 @@ def register(app: typer.Typer) -> None:
 
 def plan(
     run: RunArgument,
-    init: Annotated[Path, typer.Option(help="A picture of the start.")],
+    init: Annotated[
+        list[str], typer.Option(help="A picture of the start, [CAMERA=]FILE; one a camera.")
+    ],
     goal: GoalOption,
+    scene: SceneOption = None,
     positive: GoalReading = False,
     plans: PlansOption = 10,
     time_limit: LimitOption = 30.0,
@@ -52,12 +59,10 @@ def plan(
     as_json: JsonFlag = False,
 ) -> None:
     """Find plans from a picture of the start to a goal."""
-    learned = LearnedRun.read(RunFolder.open(run))
-    start = Observation((load_picture(init),))
-    planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
-    with open_session(learned.folder.config(), learned.folder.calls, learning=False) as session:
-        reader = GoalReader(learned, TruthTable(learned.model.domain, session.assistant))
-        found = reader.plan(planner, start, reader.read(goal, positive=positive), keep)
+    with LearnedModel.load(run) as learned:
+        start = learned.read(load_pictures(init), scene=scene)
+        wanted = _goal(learned, goal, scene, positive)
+        found = learned.plan(start, wanted, plans=plans, time_limit=time_limit, keep_files=keep)
     if as_json:
         print_json(_describe(found))
     else:
@@ -70,6 +75,7 @@ def solve(
     run: RunArgument,
     goal: GoalOption,
     init_seed: Annotated[int, typer.Option(min=0, help="Seed of the start.")] = 0,
+    scene: SceneOption = None,
     gif: Annotated[Path | None, typer.Option(help="Animation; default: RUN/solve.gif.")] = None,
     positive: GoalReading = False,
     plans: PlansOption = 10,
@@ -77,23 +83,27 @@ def solve(
     as_json: JsonFlag = False,
 ) -> None:
     """Plan, execute in the domain, and save an animation."""
-    learned = LearnedRun.read(RunFolder.open(run))
-    environment = find_domain(learned.folder.config().domain).make_environment()
-    planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
     target = gif or run / "solve.gif"
-    with open_session(learned.folder.config(), learned.folder.calls, learning=False) as session:
-        reader = GoalReader(learned, TruthTable(learned.model.domain, session.assistant))
-        wanted = reader.read(goal, positive=positive)
-        found = reader.plan(planner, environment.reset(seed=init_seed), wanted, None)
+    with (
+        LearnedModel.load(run) as learned,
+        closing(find_domain(learned.settings.domain).make_environment()) as environment,
+    ):
+        present = learned.domain.scene(scene)
+        wanted = _goal(learned, goal, scene, positive)
+
+        def prepare() -> Observation:
+            return environment.reset(seed=init_seed, scene=present.name)
+
+        start = learned.read(prepare(), scene=present)
+        found = learned.plan(start, wanted, plans=plans, time_limit=time_limit)
         report = attempt(
             environment,
-            lambda: environment.reset(seed=init_seed),
+            prepare,
             found.plans,
-            lambda: reader.holds(environment, wanted),
+            lambda: learned.read(environment.observe(), scene=present).satisfies(wanted),
         )
     if report.attempts:
         save_gif(target, report.attempts[-1])
-    environment.close()
     if as_json:
         animation = str(target) if report.attempts else None
         print_json({**_describe(found), **report.to_json(), "gif": animation})
@@ -104,43 +114,27 @@ def solve(
         raise typer.Exit(1)
 
 
-@dataclass(frozen=True)
-class GoalReader:
-    """Reads starts and goals with the predicates of a learned model.
+def _goal(learned: LearnedModel, parts: Sequence[str], scene: str | None, positive: bool) -> Goal:
+    """What the pictures and the expressions ask for, all together."""
+    pictures = [part for part in parts if is_picture_file(part)]
+    goals = [learned.goal(part, scene=scene) for part in parts if part not in pictures]
+    if pictures:
+        seen = load_pictures(pictures)
+        goals.append(learned.goal(seen, scene=scene, positive_only=positive))
+    return reduce(_both, goals)
 
-    Attributes:
-        learned: the model.
-        truth: reads pictures.
+
+def _both(first: Goal, second: Goal) -> Goal:
+    """The goal that two goals hold.
+
+    Raises:
+        GoalError: if they contradict each other.
     """
-
-    learned: LearnedRun
-    truth: TruthTable
-
-    @property
-    def space(self) -> AtomSpace:
-        """The ground atoms over all objects of the domain."""
-        return AtomSpace(self.learned.model.predicates, self.learned.model.domain.objects)
-
-    def read(self, goal: str, *, positive: bool) -> Goal:
-        """A goal from a picture file or from an expression."""
-        if Path(goal).suffix.lower() in (".png", ".jpg", ".jpeg", ".bmp", ".webp"):
-            seen = Observation((load_picture(Path(goal)),))
-            state = self.truth.labels(self.space, [seen])[0]
-            return goal_from_state(self.space, state, positive_only=positive)
-        return parse_goal(goal, self.space, self.learned.model.domain.types.names)
-
-    def plan(
-        self, planner: Planner, start: Observation, goal: Goal, keep: Path | None
-    ) -> PlanningResult:
-        """Plans from what is seen to the goal."""
-        state = self.truth.labels(self.space, [start])[0]
-        model = self.learned.model
-        return planner.plan(model, model.domain.objects, state, goal, keep_files=keep)
-
-    def holds(self, environment: Environment, goal: Goal) -> bool:
-        """Whether the goal is read off what is seen now."""
-        state = self.truth.labels(self.space, [environment.observe()])[0]
-        return goal.holds(self.space, state)
+    pairs = (a | b for a in first.alternatives for b in second.alternatives)
+    possible = tuple(dict.fromkeys(x for x in pairs if len({y.atom for y in x}) == len(x)))
+    if not possible:
+        raise GoalError(f"goal: '{first}' and '{second}' cannot hold together; leave one out")
+    return Goal(possible)
 
 
 def _describe(found: PlanningResult) -> dict[str, object]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Any
 
 from rich.console import Console, Group, RenderableType
 from rich.live import Live
@@ -12,8 +11,16 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from skillwrapper.runs.events import EventKind, RunEvent
-from skillwrapper.runs.learn import Onlooker
+from skillwrapper.runs.decisions import PredicateDecision
+from skillwrapper.runs.events import (
+    IterationFinished,
+    IterationStarted,
+    PredicateDecided,
+    RunEvent,
+    RunStarted,
+    SkillExecuted,
+)
+from skillwrapper.runs.figures import RunFigures
 from skillwrapper.runs.model_sessions import CallCounter
 
 _SHOWN_DECISIONS = 8
@@ -35,11 +42,12 @@ class _Status:
     succeeded: int = 0
     skill: str = ""
     decisions: list[Text] = field(default_factory=list)
-    result: dict[str, Any] = field(default_factory=dict)
 
 
-class RunProgress(Onlooker):
+class RunProgress:
     """Shows the events of a run: a live panel on a terminal, a line an iteration elsewhere.
+
+    An ``Observer`` of the run.
 
     Args:
         console: where to show it.
@@ -76,49 +84,43 @@ class RunProgress(Onlooker):
         """How many calls a model was asked; the rest came from a store."""
         return self._counter.made if self._counter else 0
 
-    def opened(self, counter: CallCounter) -> None:
-        """Remember where calls are counted."""
-        self._counter = counter
-
-    def happened(self, event: RunEvent) -> None:
+    def __call__(self, event: RunEvent) -> None:
         """Take note of an event."""
-        status, data = self._status, event.data
+        status = self._status
         status.iteration = event.iteration
-        if event.kind == EventKind.ITERATION_STARTED:
-            status.total, status.executed, status.succeeded = data["total"], 0, 0
-        elif event.kind == EventKind.SEQUENCE_CHOSEN:
-            status.planned = len(data["sequence"])
-        elif event.kind == EventKind.SKILL_EXECUTED:
-            status.executed += 1
-            status.succeeded += int(data["success"])
-            status.skill = f"{data['instance']} {'done' if data['success'] else 'failed'}"
-        elif event.kind == EventKind.PREDICATE_DECIDED:
-            self._note(data["verdict"], data["predicate"], data["reason"])
-        elif event.kind == EventKind.PREDICATE_DORMANT:
-            self._note("dormant", data["predicate"], data["reason"])
-        elif event.kind == EventKind.ITERATION_FINISHED:
-            status.result = data
-            self._console.print(self._iteration_line(), soft_wrap=True)
+        match event:
+            case RunStarted():
+                self._counter = event.calls
+            case IterationStarted():
+                status.total, status.planned = event.iterations, event.budget
+                status.executed = status.succeeded = 0
+            case SkillExecuted():
+                self._count(event)
+            case PredicateDecided():
+                status.decisions.append(_describe(event.decision))
+            case IterationFinished():
+                self._console.print(self._iteration_line(event.result.figures), soft_wrap=True)
 
-    def _note(self, verdict: str, predicate: str, reason: str) -> None:
-        said = f" {verdict:9} {predicate} "
-        self._status.decisions.append(Text.assemble(_MARKS[verdict], said, (reason, "dim")))
+    def _count(self, event: SkillExecuted) -> None:
+        status, done = self._status, event.transition
+        status.executed += 1
+        status.succeeded += int(done.success)
+        status.skill = f"{done.instance} {'done' if done.success else 'failed'}"
 
-    def _iteration_line(self) -> Text:
-        status, result = self._status, self._status.result
-        left = result["inconsistencies"]
+    def _iteration_line(self, figures: RunFigures) -> Text:
+        status, left = self._status, figures.inconsistencies
         colour = "green" if left == 0 else "yellow"
         return Text.assemble(
             f"iteration {status.iteration}/{status.total}  "
-            f"{result['executions']} executions  {self.calls} model calls  "
-            f"{result['predicates']} predicates  {result['operators']} operators  ",
+            f"{figures.executions} executions  {self.calls} model calls  "
+            f"{figures.predicates} predicates  {figures.operators} operators  ",
             (f"{left} inconsistencies left", colour),
         )
 
     def _draw(self) -> RenderableType:
         status = self._status
         figures = Table.grid(padding=(0, 2))
-        figures.add_row("iteration", f"{status.iteration} of {status.total}", status.skill)
+        figures.add_row("iteration", f"{status.iteration} of {status.total}", Text(status.skill))
         figures.add_row(
             "executions",
             f"{status.executed} of {status.planned}, {status.succeeded} successful",
@@ -126,3 +128,8 @@ class RunProgress(Onlooker):
         )
         figures.add_row("model calls", str(self.calls), "")
         return Group(figures, *status.decisions[-_SHOWN_DECISIONS:])
+
+
+def _describe(decision: PredicateDecision) -> Text:
+    said = f" {decision.verdict:9} {decision.predicate.signature} "
+    return Text.assemble(_MARKS[decision.verdict], said, (decision.reason, "dim"))

@@ -10,7 +10,7 @@ import typer
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.report import ReportSettings, write_experiment_report, write_report
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 
 
 def register(app: typer.Typer) -> None:
@@ -34,7 +34,7 @@ def report(
         written = write_experiment_report(ExperimentFolder.open(run), out, width)
     else:
         settings = ReportSettings(picture_width=width, episodes=episodes)
-        written = write_report(RunFolder.open(run), out, settings)
+        written = write_report(RunArchive.open(run), out, settings)
     if as_json:
         print_json({"report": str(written), "bytes": written.stat().st_size})
     else:

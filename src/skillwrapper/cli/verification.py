@@ -22,7 +22,7 @@ from skillwrapper.evaluation.exact.state_truth import TRUTH_LAYOUT, StateTruth
 from skillwrapper.evaluation.exact.verification import Verification, verify_labels
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.world.capabilities import Enumerable, require
 
@@ -50,12 +50,12 @@ class Checked:
 
 
 def run_verification(
-    learned: LearnedRun, layout_seed: int | None, console: Console, *, curve: bool = False
+    archive: RunArchive, layout_seed: int | None, console: Console, *, curve: bool = False
 ) -> Checked:
     """Verify the model of a run, read by the run's own model.
 
     Args:
-        learned: the run.
+        archive: the run.
         layout_seed: of the layout of the pictures; None for the usual one.
         console: for progress.
         curve: also check the model of every iteration, and keep the curve in the run's folder.
@@ -64,24 +64,24 @@ def run_verification(
         ConfigurationError: if the states of the domain cannot be listed.
     """
     started = time.monotonic()
-    config = learned.folder.config()
-    package = find_domain(config.domain)
+    settings, model = archive.settings(), archive.latest().model
+    package = find_domain(settings.domain)
     environment = require(package.make_environment(), Enumerable, "exact verification")
     layout = TRUTH_LAYOUT if layout_seed is None else layout_seed
     with (
-        open_session(config, learned.folder.calls, learning=False) as session,
+        open_session(settings, archive.layout.calls, learning=False) as session,
         console.status("reading the pictures of all reachable states"),
     ):
         table = TruthTable(environment.domain, session.assistant)
         truth = StateTruth(environment, layout=layout, sight=table)
-        atoms = AtomSpace(learned.model.predicates, environment.domain.objects)
+        atoms = AtomSpace(model.predicates, environment.domain.objects)
         labels = truth.labels(atoms)
-        found = verify_labels(environment, truth.space, learned.model, labels)
+        found = verify_labels(environment, truth.space, model, labels)
         points: tuple[CurvePoint, ...] = ()
         if curve:
-            stages = read_stages(learned.folder, environment.domain)
+            stages = read_stages(archive)
             points = learning_curve(stages, truth.space, truth.labels)
-            write_curve(learned.folder, points)
+            write_curve(archive, points)
     environment.close()
     return Checked(replace(found, seconds=time.monotonic() - started), points)
 

@@ -50,15 +50,23 @@ def read_json(path: Path, model: type[Model]) -> Model:
         raise FileError(f"{_place(path, text, mistake.location)}: {mistake.text}") from error
 
 
-def read_records(path: Path, model: type[Model]) -> list[Model]:
+def read_records(
+    path: Path, model: type[Model], first: int = 1, last: int | None = None
+) -> list[Model]:
     """The lines of a file of JSON lines, each as a pydantic model; none if there is no file.
 
     A last line that a crash cut short is left out; ``append_line`` removes it.
 
+    Args:
+        path: the file.
+        model: what a line holds.
+        first: number of the first line to read, from 1.
+        last: number of the last line to read; None for all.
+
     Raises:
         FileError: if another line is something else; names the file and the line.
     """
-    lines = enumerate(_whole_lines(path), start=1)
+    lines = enumerate(_whole_lines(path)[first - 1 : last], start=first)
     return [parse_record(line, model, f"{path}:{number}") for number, line in lines]
 
 

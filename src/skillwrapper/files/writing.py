@@ -28,7 +28,7 @@ def write_atomically(path: Path, content: str | bytes) -> None:
         FileError: if the path is a folder, or cannot be written.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
-    with _explained(path):
+    with explained(path):
         status = _status(path)
         if status is not None and stat.S_ISDIR(status.st_mode):
             raise FileError(f"{path}: expected the name of a file, got a folder")
@@ -62,7 +62,7 @@ def append_line(path: Path, entry: Mapping[str, Any], *, durable: bool = True) -
         FileError: if the file cannot be written.
     """
     line = json.dumps(entry, sort_keys=True).encode("utf-8") + b"\n"
-    with _explained(path):
+    with explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         is_new = not path.exists()
         with path.open("ab+") as file:
@@ -132,8 +132,12 @@ def _cut_torn_line(handle: int) -> None:
 
 
 @contextmanager
-def _explained(path: Path) -> Iterator[None]:
-    """Errors of the system as one sentence."""
+def explained(path: Path) -> Iterator[None]:
+    """Errors of the system in writing a file or folder, as one sentence.
+
+    Raises:
+        FileError: instead of an ``OSError``.
+    """
     try:
         yield
     except OSError as error:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.vlm.store import CallStore
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.vlm.stored_call import CallTotals
 
 Number = TypeVar("Number", int, float)
@@ -51,16 +50,14 @@ class CallAccount:
     total: Line
 
 
-def read_account(folder: RunFolder) -> CallAccount | None:
+def read_account(archive: RunArchive) -> CallAccount | None:
     """The account of a run; None if no calls were recorded.
 
     Raises:
         RunFolderError: if the record is damaged.
     """
-    if not folder.calls.is_file():
-        return None
-    with CallStore(folder.calls, read_only=True) as store:
-        totals = store.totals()
+    with archive.open_calls() as store:
+        totals = store.totals() if store else ()
     if not totals:
         return None
     roles = dict.fromkeys(t.role for t in totals)

@@ -7,15 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import yaml
-
-from skillwrapper.evaluation.exact.learning_curves import EXACT_CURVE
-from skillwrapper.files.json_documents import read_lines
 from skillwrapper.report.account import CallAccount, read_account
 from skillwrapper.report.charts import LineChart
 from skillwrapper.report.curves import learning_charts
-from skillwrapper.report.history import Decision, RunHistory
-from skillwrapper.report.labels import RecordedLabels
+from skillwrapper.report.history import DatedDecision, RunHistory
 from skillwrapper.report.strips import EpisodeStrips, lay_out
 from skillwrapper.report.views import (
     PredicateView,
@@ -24,8 +19,12 @@ from skillwrapper.report.views import (
     view_skills,
     view_violations,
 )
-from skillwrapper.runs.folder import CONFIG, RunFolder
-from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.archive import RunArchive
+from skillwrapper.runs.archive.records import (
+    CertificateRecord,
+    InconsistencyRecord,
+    SummaryRecord,
+)
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.pddl import print_domain
@@ -38,8 +37,8 @@ class ReportContents:
     """What a report says.
 
     Attributes:
-        config: what the run was asked to do.
-        settings: the same as it was written down, as plain data.
+        settings: what the run was asked to do.
+        settings_data: the same as plain data.
         made_with: versions and commit, as plain data.
         config_text: the whole ``config.yaml``.
         started: when the run began, in UTC; None if there is no log.
@@ -50,30 +49,30 @@ class ReportContents:
         set_aside: the last decision on every predicate that was in and is not any more.
         skills: the skills with their operators.
         pddl: the whole domain.
-        certificate: as plain data.
+        certificate: Lemma 1 and Theorem 1 on the recorded data.
         violations: what breaks it.
-        unresolved: inconsistencies that are left, as plain data.
+        unresolved: inconsistencies that are left.
         charts: the learning curve.
         account: model calls; None if none were recorded.
         episodes: strips of episodes, the richest ones, in order of time.
         opened: number of the episode that is shown unfolded; None if there is none.
     """
 
-    config: RunSettings
-    settings: dict[str, Any]
+    settings: RunSettings
+    settings_data: dict[str, Any]
     made_with: dict[str, Any]
     config_text: str
     started: datetime.datetime | None
     finished: datetime.datetime | None
     history: RunHistory
-    summary: dict[str, Any]
+    summary: SummaryRecord
     predicates: tuple[PredicateView, ...]
-    set_aside: tuple[Decision, ...]
+    set_aside: tuple[DatedDecision, ...]
     skills: tuple[SkillView, ...]
     pddl: str
-    certificate: dict[str, Any]
+    certificate: CertificateRecord
     violations: tuple[ViolationView, ...]
-    unresolved: list[dict[str, Any]]
+    unresolved: tuple[InconsistencyRecord, ...]
     charts: tuple[LineChart, ...]
     account: CallAccount | None
     episodes: tuple[EpisodeStrips, ...]
@@ -82,7 +81,7 @@ class ReportContents:
     @property
     def is_complete(self) -> bool:
         """Whether all iterations that were asked for are finished."""
-        return len(self.history.iterations) >= self.config.iterations
+        return len(self.history.iterations) >= self.settings.iterations
 
     @property
     def period(self) -> str:
@@ -98,7 +97,7 @@ class ReportContents:
     @property
     def embedded_roles(self) -> tuple[str, ...]:
         """Roles that the embedded model played; ``("every role",)`` if it played all."""
-        model = self.config.model
+        model = self.settings.model
         others = {str(role) for role, name in model.roles.items() if name != EMBEDDED}
         own = {str(role) for role, name in model.roles.items() if name == EMBEDDED}
         if model.name == EMBEDDED:
@@ -106,49 +105,48 @@ class ReportContents:
         return tuple(sorted(own))
 
     @classmethod
-    def gather(cls, folder: RunFolder, most_episodes: int) -> ReportContents:
+    def gather(cls, archive: RunArchive, most_episodes: int) -> ReportContents:
         """Read a run.
 
         Raises:
-            RunFolderError: if no iteration is finished, or a file is damaged.
+            UserError: if no iteration is finished, or a file is damaged.
         """
-        learned, history = LearnedRun.read(folder), RunHistory.read(folder)
-        last = len(history.iterations)
-        labels = RecordedLabels.read(folder.iteration(last) / "truth_table.csv")
+        latest, history = archive.latest(), RunHistory.read(archive)
+        settings, model, labels = archive.settings(), latest.model, latest.labels
         strips = [lay_out(i.number, i.episode, labels) for i in history.iterations]
         richest = sorted(strips, key=lambda s: (-s.changes, s.number))[:most_episodes]
-        config_text = (folder.path / CONFIG).read_text(encoding="utf-8")
-        written = yaml.safe_load(config_text)
-        times = [entry["time"] for entry in read_lines(folder.events) if "time" in entry]
+        times = [event.time for event in archive.events()]
         return cls(
-            config=folder.config(),
-            settings=written.get("run") or {},
-            made_with=written.get("made_with") or {},
-            config_text=config_text,
+            settings=settings,
+            settings_data=settings.model_dump(mode="json"),
+            made_with=archive.made_with(),
+            config_text=archive.config_text(),
             started=_moment(times[0]) if times else None,
             finished=_moment(times[-1]) if times else None,
             history=history,
-            summary=learned.summary,
-            predicates=tuple(
-                PredicateView.of(p, history, labels) for p in learned.model.predicates
-            ),
-            set_aside=tuple(_set_aside(history, learned.model)),
-            skills=view_skills(learned.model, history),
-            pddl=print_domain(learned.model),
-            certificate=learned.certificate,
-            violations=tuple(view_violations(learned.certificate, history)),
-            unresolved=learned.unresolved,
-            charts=learning_charts(history, folder.path / EXACT_CURVE),
-            account=read_account(folder),
+            summary=latest.summary,
+            predicates=tuple(PredicateView.of(p, history, labels) for p in model.predicates),
+            set_aside=tuple(_set_aside(history, model)),
+            skills=view_skills(model, history),
+            pddl=print_domain(model),
+            certificate=latest.certificate,
+            violations=tuple(view_violations(latest.certificate, history)),
+            unresolved=latest.unresolved,
+            charts=learning_charts(history, archive.curve()),
+            account=read_account(archive),
             episodes=tuple(sorted(richest, key=lambda s: s.number)),
             opened=richest[0].number if richest else None,
         )
 
 
-def _set_aside(history: RunHistory, model: AbstractModel) -> Iterator[Decision]:
+def _set_aside(history: RunHistory, model: AbstractModel) -> Iterator[DatedDecision]:
     """The last decision on predicates that were taken in and are no longer active."""
     active = set(model.predicate_by_name)
-    last = {d.name: d for d in history.decisions() if d.verdict in ("dormant", "retracted")}
+    last = {
+        d.record.name: d
+        for d in history.decisions()
+        if d.record.verdict in ("dormant", "retracted")
+    }
     return (decision for name, decision in last.items() if name not in active)
 
 

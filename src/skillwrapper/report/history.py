@@ -2,46 +2,26 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import Any
 
-from skillwrapper.errors import RunFolderError
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.recorder import read_episode
+from skillwrapper.runs.archive import RunArchive
+from skillwrapper.runs.archive.records import DecisionRecord, SummaryRecord
 from skillwrapper.world.episode import Episode, Transition
 
 
 @dataclass(frozen=True)
-class Decision:
-    """What was decided of a predicate.
+class DatedDecision:
+    """What was decided of a predicate, and when.
 
     Attributes:
         iteration: when, from 1.
-        verdict: accepted, revived, rejected, retracted or dormant.
-        predicate: its signature.
-        semantics: its meaning, may be empty.
-        score: 0 to 1; None if there is none.
-        reason: why.
-        inconsistency: what it was asked for, as ``describe_inconsistency`` wrote it; None if for
-            nothing.
+        record: what.
     """
 
     iteration: int
-    verdict: str
-    predicate: str
-    semantics: str
-    score: float | None
-    reason: str
-    inconsistency: dict[str, Any] | None
-
-    @property
-    def name(self) -> str:
-        """The name of the predicate, without its parameters."""
-        return self.predicate.partition("(")[0]
+    record: DecisionRecord
 
 
 @dataclass(frozen=True)
@@ -57,8 +37,8 @@ class Iteration:
 
     number: int
     episode: Episode
-    decisions: tuple[Decision, ...]
-    summary: dict[str, Any]
+    decisions: tuple[DecisionRecord, ...]
+    summary: SummaryRecord
 
     @property
     def executions(self) -> int:
@@ -71,12 +51,12 @@ class Iteration:
         return sum(t.success for t in self.episode.transitions)
 
     @property
-    def lasting(self) -> tuple[Decision, ...]:
+    def lasting(self) -> tuple[DecisionRecord, ...]:
         """The decisions that changed the vocabulary."""
         return tuple(d for d in self.decisions if d.verdict != "rejected")
 
     @property
-    def rejected(self) -> tuple[Decision, ...]:
+    def rejected(self) -> tuple[DecisionRecord, ...]:
         """The candidates that were not taken."""
         return tuple(d for d in self.decisions if d.verdict == "rejected")
 
@@ -92,14 +72,14 @@ class RunHistory:
     iterations: tuple[Iteration, ...]
 
     @classmethod
-    def read(cls, folder: RunFolder) -> RunHistory:
+    def read(cls, archive: RunArchive) -> RunHistory:
         """Read what is finished.
 
         Raises:
-            RunFolderError: if a file is missing or damaged.
+            UserError: if a file is missing or damaged.
         """
-        numbers = range(1, folder.finished_iterations() + 1)
-        return cls(tuple(_read_iteration(folder, number) for number in numbers))
+        pairs = zip(archive.iterations(), archive.episodes(), strict=True)
+        return cls(tuple(Iteration(i.number, e, i.decisions, i.summary) for i, e in pairs))
 
     @cached_property
     def transitions(self) -> tuple[Transition, ...]:
@@ -111,52 +91,23 @@ class RunHistory:
         """How many executions succeeded."""
         return sum(i.successes for i in self.iterations)
 
-    def origin(self, signature: str) -> Decision | None:
+    def origin(self, signature: str) -> DatedDecision | None:
         """The decision that last brought a predicate in, by signature or else by name.
 
-        A predicate that was widened to another type (DESIGN.md D3) has kept its name only.
+        A predicate that was widened to another type (docs/semantics.md D3) has kept its name only.
         """
         name = signature.partition("(")[0]
-        brought = [d for d in self.decisions() if d.verdict in ("accepted", "revived")]
-        exact = [d for d in brought if d.predicate == signature and d.inconsistency]
-        named = [d for d in brought if d.name == name and d.inconsistency]
-        fitting = exact or named
+        brought = [
+            d
+            for d in self.decisions()
+            if d.record.verdict in ("accepted", "revived") and d.record.inconsistency
+        ]
+        exact = [d for d in brought if d.record.predicate == signature]
+        fitting = exact or [d for d in brought if d.record.name == name]
         return fitting[-1] if fitting else None
 
-    def decisions(self) -> Iterator[Decision]:
+    def decisions(self) -> Iterator[DatedDecision]:
         """All decisions in order of time."""
         for iteration in self.iterations:
-            yield from iteration.decisions
-
-
-def read_json(path: Path) -> Any:
-    """The content of a JSON file of a run.
-
-    Raises:
-        RunFolderError: if it is missing or damaged.
-    """
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise RunFolderError(f"{path}: cannot be read ({error.strerror})") from error
-    except ValueError as error:
-        raise RunFolderError(f"{path}: expected JSON ({error})") from error
-
-
-def _read_iteration(folder: RunFolder, number: int) -> Iteration:
-    target = folder.iteration(number)
-    decisions = tuple(_decision(number, entry) for entry in read_json(target / "decisions.json"))
-    summary = read_json(target / "summary.json")
-    return Iteration(number, read_episode(folder, number), decisions, summary)
-
-
-def _decision(number: int, entry: dict[str, Any]) -> Decision:
-    return Decision(
-        number,
-        entry["verdict"],
-        entry["predicate"],
-        entry.get("semantics", ""),
-        entry.get("score"),
-        entry["reason"],
-        entry.get("inconsistency"),
-    )
+            for record in iteration.decisions:
+                yield DatedDecision(iteration.number, record)

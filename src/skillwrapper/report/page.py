@@ -12,7 +12,7 @@ from markupsafe import Markup
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.report.contents import ReportContents
 from skillwrapper.report.pictures import PictureBook
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 
 _TEMPLATES = "report/templates"
 
@@ -30,30 +30,30 @@ class ReportSettings:
     episodes: int = 12
 
 
-def render_report(folder: RunFolder, settings: ReportSettings | None = None) -> str:
+def render_report(archive: RunArchive, settings: ReportSettings | None = None) -> str:
     """The page; equal folders give equal pages.
 
     Raises:
-        RunFolderError: if no iteration is finished, or a file is damaged.
+        UserError: if no iteration is finished, or a file is damaged.
     """
     settings = settings or ReportSettings()
-    pictures = PictureBook(folder.path / "images", settings.picture_width)
+    pictures = PictureBook(archive.pictures, settings.picture_width)
     environment = page_environment()
     environment.globals["picture_uri"] = pictures.uri
-    contents = ReportContents.gather(folder, settings.episodes)
+    contents = ReportContents.gather(archive, settings.episodes)
     return environment.get_template("report.html.j2").render(run=contents)
 
 
 def write_report(
-    folder: RunFolder, out: Path | None = None, settings: ReportSettings | None = None
+    archive: RunArchive, out: Path | None = None, settings: ReportSettings | None = None
 ) -> Path:
     """Write the page, by default as ``report.html`` into the run's folder; returns where.
 
     Raises:
-        RunFolderError: if no iteration is finished, or a file is damaged.
+        UserError: if no iteration is finished, or a file is damaged.
     """
-    target = out or folder.path / "report.html"
-    write_atomically(target, render_report(folder, settings))
+    target = out or archive.path / "report.html"
+    write_atomically(target, render_report(archive, settings))
     return target
 
 

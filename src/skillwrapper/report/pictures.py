@@ -5,9 +5,10 @@ from __future__ import annotations
 import base64
 import hashlib
 import io
-from pathlib import Path
 
 from PIL import Image, UnidentifiedImageError
+
+from skillwrapper.runs.archive.pictures import PictureStore
 
 _QUALITY = 82
 
@@ -49,22 +50,22 @@ class PictureBook:
     """Downscaled copies of a run's pictures as data URIs; each is made once.
 
     Args:
-        folder: where ``<sha256>.png`` stand.
+        pictures: those of the run.
         width: of the copies in pixels, at most; heights follow.
     """
 
-    def __init__(self, folder: Path, width: int) -> None:
-        self._folder, self._thumbnails = folder, Thumbnails(width)
+    def __init__(self, pictures: PictureStore, width: int) -> None:
+        self._pictures, self._thumbnails = pictures, Thumbnails(width)
         self._made: dict[str, str | None] = {}
 
     def uri(self, sha256: str) -> str | None:
         """The picture as a data URI; None if it is missing or damaged."""
         if sha256 not in self._made:
-            self._made[sha256] = self._make(self._folder / f"{sha256}.png")
+            self._made[sha256] = self._make(self._pictures.find(sha256))
         return self._made[sha256]
 
-    def _make(self, path: Path) -> str | None:
+    def _make(self, png: bytes | None) -> str | None:
         try:
-            return self._thumbnails.uri(path.read_bytes())
-        except (OSError, UnidentifiedImageError):
+            return None if png is None else self._thumbnails.uri(png)
+        except (OSError, ValueError, UnidentifiedImageError):
             return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from skillwrapper.report.labels import RecordedLabels
+from skillwrapper.runs.archive import RecordedLabels
 from skillwrapper.world.episode import Episode
 from skillwrapper.world.observation import Observation
 

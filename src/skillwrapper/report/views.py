@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from skillwrapper.report.history import Decision, RunHistory
-from skillwrapper.report.labels import RecordedLabels
+from skillwrapper.errors import FileError
+from skillwrapper.report.history import DatedDecision, RunHistory
+from skillwrapper.runs.archive import RecordedLabels
+from skillwrapper.runs.archive.records import CertificateRecord
 from skillwrapper.symbols import AbstractModel, Operator
 from skillwrapper.symbols.operators import Variable
 from skillwrapper.symbols.pddl import print_domain
@@ -31,7 +32,7 @@ class PredicateView:
 
     signature: str
     semantics: str
-    origin: Decision | None
+    origin: DatedDecision | None
     true: int
     false: int
     unknown: int
@@ -129,15 +130,25 @@ def view_skills(model: AbstractModel, history: RunHistory) -> tuple[SkillView, .
     return tuple(views)
 
 
-def view_violations(certificate: dict[str, Any], history: RunHistory) -> Iterator[ViolationView]:
-    """The violations of a certificate with the transitions they speak of."""
+def view_violations(certificate: CertificateRecord, history: RunHistory) -> Iterator[ViolationView]:
+    """The violations of a certificate with the transitions they speak of.
+
+    Raises:
+        FileError: if it speaks of transitions that were not recorded.
+    """
     names = {"lemma1": "Lemma 1", "theorem1": "Theorem 1"}
-    for entry in certificate["violations"]:
-        both = (entry["transition"], entry["partner"])
+    for entry in certificate.violations:
+        both = (entry.transition, entry.partner)
         numbers = tuple(number for number in both if number is not None)
+        if max(numbers) >= len(history.transitions):
+            raise FileError(
+                f"the certificate speaks of transition {max(numbers)}, and "
+                f"{len(history.transitions)} were recorded; run the same learn command again to "
+                "mend it"
+            )
         instances = tuple(str(history.transitions[number].instance) for number in numbers)
-        statement = names.get(entry["statement"], entry["statement"])
-        yield ViolationView(statement, entry["reason"], instances, numbers)
+        statement = names.get(entry.statement, entry.statement)
+        yield ViolationView(statement, entry.reason, instances, numbers)
 
 
 def _actions(model: AbstractModel) -> Iterator[tuple[str, str]]:

@@ -1,37 +1,125 @@
-"""What happens in a run, as data: for the log, and for whoever watches."""
+"""What happens in a run, as values for those who watch it: an archive, a display, a notebook."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from enum import StrEnum
-from typing import Any
+from dataclasses import dataclass, field
 
-
-class EventKind(StrEnum):
-    """What happened."""
-
-    ITERATION_STARTED = "iteration_started"
-    SEQUENCE_CHOSEN = "sequence_chosen"
-    SKILL_EXECUTED = "skill_executed"
-    PREDICATE_DECIDED = "predicate_decided"
-    PREDICATE_DORMANT = "predicate_dormant"
-    ITERATION_FINISHED = "iteration_finished"
+from skillwrapper.exploration.explorer import Choice
+from skillwrapper.runs.decisions import PredicateDecision
+from skillwrapper.runs.model_sessions import CallCounter
+from skillwrapper.runs.results import LearningResult, SceneLabels
+from skillwrapper.world.episode import Transition
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 
 
 @dataclass(frozen=True)
 class RunEvent:
-    """One event.
+    """Something that happened.
 
     Attributes:
-        kind: what happened.
         iteration: in which iteration, from 1.
-        data: plain data that describes it.
     """
 
-    kind: EventKind
     iteration: int
-    data: dict[str, Any]
 
 
-Watcher = Callable[[RunEvent], None]
+@dataclass(frozen=True)
+class RunStarted(RunEvent):
+    """The models are ready; told before the first iteration, with the number 0.
+
+    Attributes:
+        calls: counts how often models are asked; goes on counting.
+    """
+
+    calls: CallCounter
+
+
+@dataclass(frozen=True)
+class IterationStarted(RunEvent):
+    """An iteration begins.
+
+    Attributes:
+        iterations: how many are wanted in all.
+        budget: how many skills may be run in this one.
+    """
+
+    iterations: int
+    budget: int
+
+
+@dataclass(frozen=True)
+class EpisodeStarted(RunEvent):
+    """The environment was reset, and the first skill chosen; not told of what was recorded before.
+
+    Attributes:
+        scene: the objects that are present.
+        seed: that of the reset.
+        start: what is seen.
+    """
+
+    scene: Scene
+    seed: int
+    start: Observation
+
+
+@dataclass(frozen=True)
+class SequenceChosen(RunEvent):
+    """A whole sequence of skills was chosen.
+
+    Attributes:
+        choice: the sequence, and how it was chosen.
+    """
+
+    choice: Choice
+
+
+@dataclass(frozen=True)
+class SkillExecuted(RunEvent):
+    """A skill was run to its end; not told of what was recorded before.
+
+    Attributes:
+        transition: what came of it.
+        message: why it failed, for people.
+        reason: why it was run, for people.
+    """
+
+    transition: Transition
+    message: str = ""
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class PredicateDecided(RunEvent):
+    """It was decided on a predicate."""
+
+    decision: PredicateDecision
+
+
+@dataclass(frozen=True)
+class IterationFinished(RunEvent):
+    """An iteration ends.
+
+    Attributes:
+        result: of all iterations so far.
+        labels: of all observations so far, scene by scene.
+    """
+
+    result: LearningResult
+    labels: tuple[SceneLabels, ...] = field(repr=False)
+
+
+@dataclass(frozen=True)
+class RunFinished(RunEvent):
+    """The run ends.
+
+    Attributes:
+        result: of the whole run.
+    """
+
+    result: LearningResult
+
+
+Observer = Callable[[RunEvent], None]
+"""Told of every event, in order, before the run goes on."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Generic, TypeVar, get_args, get_origin
 
@@ -64,6 +65,18 @@ class SettingsLayers(Generic[Model]):
             place = place[key]
         place[last] = value
         self._origins[(*path, last)] = origin
+
+    def add_any(self, name: str, value: Any) -> None:
+        """Take a value, or under the name of a whole part of the tree a mapping of values.
+
+        Raises:
+            UnknownNameError: if there is no such setting.
+        """
+        if name not in self._known and isinstance(value, Mapping):
+            for key, inner in value.items():
+                self.add_any(f"{name}.{key}", inner)
+        else:
+            self.add(name, value, name)
 
     def assign(self, text: str, origin: str = "--set") -> None:
         """Take a value written as ``learning.attempts=5``; values are written as in YAML.

@@ -8,6 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
+import yaml
+
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.world.domain_file import DomainFile
@@ -123,6 +125,34 @@ def build_domain(document: YamlDocument) -> Domain:
         declared_scenes=_build_scenes(document, entries, objects),
         failures_change_nothing=entries.failures_change_nothing,
     )
+
+
+def domain_to_yaml(domain: Domain) -> str:
+    """What a ``domain.yaml`` says of a domain; ``load_domain`` gives an equal one."""
+    content = {
+        "name": domain.name,
+        "agent": domain.agent,
+        "description": domain.description,
+        "failures_change_nothing": domain.failures_change_nothing,
+        "types": {
+            name: {"parents": parents, "description": domain.types.descriptions.get(name, "")}
+            for name, parents in domain.types.parents.items()
+        },
+        "objects": {
+            o.name: {"types": domain.types.most_specific(o.types), "description": o.description}
+            for o in domain.objects
+        },
+        "skills": {
+            s.name: {
+                "parameters": [vars(parameter) for parameter in s.parameters],
+                "description": s.description,
+            }
+            for s in domain.skills
+        },
+        "scenes": {scene.name: scene.names for scene in domain.declared_scenes},
+    }
+    plain = DomainFile.model_validate(content).model_dump(mode="json", exclude_defaults=True)
+    return yaml.safe_dump(plain, sort_keys=False, allow_unicode=True, width=88)
 
 
 def _build_types(document: YamlDocument, entries: DomainFile) -> TypeHierarchy:

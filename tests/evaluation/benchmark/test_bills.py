@@ -7,15 +7,15 @@ from pathlib import Path
 import pytest
 
 from skillwrapper.evaluation.benchmark.bills import NOTHING, Bill, learning_bill, solving_bill
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.vlm.protocol import Role, Usage
 from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
 
 
-def keep(path: Path, *costs: tuple[int | None, float | None]) -> RunFolder:
+def keep(path: Path, *costs: tuple[int | None, float | None]) -> RunArchive:
     """A folder with a call for each pair of iteration and cost."""
-    folder = RunFolder(path)
-    with CallStore(folder.calls) as store:
+    folder = RunArchive(path)
+    with CallStore(folder.layout.calls) as store:
         for number, (iteration, cost) in enumerate(costs):
             usage = Usage(100, 10, cost, 2.0)
             key = str(number)
@@ -45,6 +45,6 @@ def test_one_unknown_cost_makes_the_sum_unknown(tmp_path: Path) -> None:
 
 def test_without_calls(tmp_path: Path) -> None:
     assert learning_bill(None) is None
-    assert learning_bill(RunFolder(tmp_path)) is None
+    assert learning_bill(RunArchive(tmp_path)) is None
     assert solving_bill(None, 0, "openai:x") == NOTHING
     assert solving_bill(None, 5, "embedded") == Bill(5, 0.0, None, None, None)

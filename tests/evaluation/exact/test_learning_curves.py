@@ -16,7 +16,6 @@ from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.evaluation.exact.learning_curves import (
-    EXACT_CURVE,
     Stage,
     area_under,
     learning_curve,
@@ -26,9 +25,8 @@ from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.readers import AtomReader
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.report import render_report
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.learn import learn
-from skillwrapper.runs.learned import LearnedRun
+from skillwrapper.runs.archive import RunArchive
+from skillwrapper.runs.launch import learn
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel
 
@@ -66,22 +64,21 @@ def test_the_curve_of_a_run_is_kept_and_shown(
 ) -> None:
     config = RunSettings(domain="burger", iterations=2, exploration=ExplorationSettings(budget=5))
     learn(config, tmp_path / "run")
-    folder = RunFolder.open(tmp_path / "run")
-    assert "Exact truth" not in render_report(folder)
+    archive = RunArchive.open(tmp_path / "run")
+    assert "Exact truth" not in render_report(archive)
     monkeypatch.setattr(DomainPackage, "make_environment", lambda package: FirstStates())
     output = Console(file=io.StringIO(), width=120)
 
-    learned = LearnedRun.read(folder)
-    plain = verification.run_verification(learned, None, output)
-    checked = verification.run_verification(learned, None, output, curve=True)
+    plain = verification.run_verification(archive, None, output)
+    checked = verification.run_verification(archive, None, output, curve=True)
 
     assert plain.curve == ()
     assert "curve" not in plain.to_json()
     assert [p.executions for p in checked.curve] == [5, 10]
-    assert len(read_stages(folder, BurgerEnvironment().domain)) == 2
+    assert len(read_stages(archive)) == 2
     assert checked.curve[-1].recall == checked.verification.recall
-    written = json.loads((folder.path / EXACT_CURVE).read_text())
+    written = json.loads(archive.layout.curve.read_text())
     assert written == checked.to_json()["curve"]
-    assert "Exact truth" in render_report(folder)
+    assert "Exact truth" in render_report(archive)
     verification.print_curve(checked.curve, output)
     assert "area under recall" in output.file.getvalue()  # type: ignore[attr-defined]

@@ -19,7 +19,7 @@ from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Bench, Cell, CellSettings, Prepared
 from skillwrapper.evaluation.methods.registry import method_of
 from skillwrapper.evaluation.problems.problems import read_problems
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 
 SETTINGS = CellSettings(iterations=2, budget=12)
 
@@ -48,7 +48,7 @@ def ours(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_learned_method_leaves_a_run(ours: Path) -> None:
-    assert RunFolder.open(ours / "run").finished_iterations() == 2
+    assert RunArchive.open(ours / "run").layout.finished_iterations() == 2
     with prepared("ours", ours) as again:  # resumed: nothing is executed a second time
         assert [stage.executions for stage in again.stages] == [12, 24]
         assert again.figures["executions"] == 24
@@ -86,10 +86,9 @@ def test_system_needs_a_source(tmp_path: Path) -> None:
 def test_batch_is_invented_once(tmp_path: Path) -> None:
     with prepared("fm-invent", tmp_path) as ready:
         assert len(ready.stages[0].model.predicates) > 0
-    folder = RunFolder.open(tmp_path / "run")
-    first, second = ((folder.iteration(number) / "decisions.json").read_text() for number in (1, 2))
-    assert first.count("one of the batch") > 3
-    assert "one of the batch" not in second
+    first, second = RunArchive.open(tmp_path / "run").iterations()
+    assert sum(d.reason == "one of the batch" for d in first.decisions) > 3
+    assert not any(d.reason == "one of the batch" for d in second.decisions)
 
 
 @pytest.mark.parametrize("method", ["expert", "expert-read"])

@@ -14,7 +14,7 @@ from skillwrapper.evaluation.study.scoring import mean_accuracy, score_predicate
 from skillwrapper.evaluation.study.subjects import subject_of
 from skillwrapper.evaluation.study.tables import EMBEDDED_NOTE, perception_tables
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.learn import learn
+from skillwrapper.runs.launch import learn
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.vlm.store import CallStore

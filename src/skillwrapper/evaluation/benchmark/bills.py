@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.vlm.store import CallStore
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.vlm.stored_call import CallTotals
 
 _FREE: Final = "embedded"
@@ -40,7 +39,7 @@ class Bill:
 NOTHING: Final = Bill(0, 0.0, 0, 0, 0.0)
 
 
-def learning_bill(run: RunFolder | None) -> Bill | None:
+def learning_bill(run: RunArchive | None) -> Bill | None:
     """What a run's iterations took, over all its interruptions; None without a run."""
     if run is None:
         return None
@@ -48,7 +47,7 @@ def learning_bill(run: RunFolder | None) -> Bill | None:
     return _bill(totals) if totals else None
 
 
-def solving_bill(run: RunFolder | None, calls: int, model: str) -> Bill:
+def solving_bill(run: RunArchive | None, calls: int, model: str) -> Bill:
     """What solving problems took.
 
     Args:
@@ -64,11 +63,9 @@ def solving_bill(run: RunFolder | None, calls: int, model: str) -> Bill:
     return _bill(totals) if totals else Bill(calls, None, None, None, None)
 
 
-def _totals(run: RunFolder) -> tuple[CallTotals, ...]:
-    if not run.calls.is_file():
-        return ()
-    with CallStore(run.calls, read_only=True) as store:
-        return store.totals()
+def _totals(run: RunArchive) -> tuple[CallTotals, ...]:
+    with run.open_calls() as store:
+        return store.totals() if store else ()
 
 
 def _bill(totals: Iterable[CallTotals]) -> Bill:

@@ -4,21 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Final
 
 from skillwrapper.evaluation.exact.predictions import predict_all
 from skillwrapper.evaluation.exact.state_space import StateSpace
-from skillwrapper.files.writing import write_json
 from skillwrapper.grounding import AtomSpace, GroundModel, Labels
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.recorder import read_episode
+from skillwrapper.runs.archive import RunArchive
+from skillwrapper.runs.archive.records import CurvePointRecord
 from skillwrapper.symbols import AbstractModel
-from skillwrapper.symbols.files import read_model
-from skillwrapper.world.domain import Domain
-
-EXACT_CURVE: Final = "curve.json"
-"""Optional, in the folder of a run: its learning curve, a list of ``CurvePoint`` as objects."""
 
 
 @dataclass(frozen=True)
@@ -55,18 +47,13 @@ class CurvePoint:
     operators: int
 
 
-def read_stages(folder: RunFolder, domain: Domain) -> tuple[Stage, ...]:
+def read_stages(archive: RunArchive) -> tuple[Stage, ...]:
     """The model after every finished iteration of a run.
 
     Raises:
-        RunFolderError: if a file is damaged.
+        UserError: if a file is damaged.
     """
-    executions, stages = 0, []
-    for number in range(1, folder.finished_iterations() + 1):
-        executions += len(read_episode(folder, number).transitions)
-        model = read_model(folder.iteration(number) / "model.json", domain)
-        stages.append(Stage(executions, model))
-    return tuple(stages)
+    return tuple(Stage(i.summary.executions, i.model) for i in archive.iterations())
 
 
 def learning_curve(
@@ -91,11 +78,9 @@ def area_under(points: Sequence[tuple[int, float]]) -> float:
     return area / position if position else 0.0
 
 
-def write_curve(folder: RunFolder, curve: Sequence[CurvePoint]) -> Path:
-    """Keep a curve in the folder of its run, where reports find it; returns the file."""
-    path = folder.path / EXACT_CURVE
-    write_json(path, [vars(point) for point in curve])
-    return path
+def write_curve(archive: RunArchive, curve: Sequence[CurvePoint]) -> None:
+    """Keep a curve in the folder of its run, where reports find it."""
+    archive.write_curve([CurvePointRecord(**vars(point)) for point in curve])
 
 
 def _point(stage: Stage, space: StateSpace, label_all: Callable[[AtomSpace], Labels]) -> CurvePoint:

@@ -11,7 +11,7 @@ from skillwrapper.evaluation.exact.learning_curves import Stage
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import AtomReader, PictureReader
 from skillwrapper.perception.truth_table import TruthTable
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import make_archive
 from skillwrapper.runs.model_sessions import open_session
 
 
@@ -43,13 +43,12 @@ class ExpertMethod:
             yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states))
             return
         config = bench.config()
-        path = bench.folder / "run"
-        folder = RunFolder.create_or_resume(path, config, bench.package.file)
-        with open_session(config, folder.calls, learning=False) as session:
+        archive = make_archive(bench.folder / "run", config, bench.environment.domain)
+        with open_session(config, archive.layout.calls, learning=False) as session:
             table = TruthTable(bench.environment.domain, session.assistant)
             reader = PictureReader(bench.environment, table)
             solver = bench.solver(model, reader, truth, lambda: session.counter.answered)
-            yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states), calls=folder)
+            yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states), calls=archive)
 
 
 EXPERT: Final = ExpertMethod("expert", "Expert Operators, true states", reads_pictures=False)

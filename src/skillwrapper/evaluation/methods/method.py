@@ -21,7 +21,7 @@ from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.planning.planner import Planner, PlannerSettings
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.settings import ModelSettings, RunSettings
 from skillwrapper.symbols import AbstractModel
 from skillwrapper.world.capabilities import Enumerable
@@ -145,8 +145,8 @@ class Prepared:
     recorded: TruthSource | None = None
     absences: bool = True
     figures: Mapping[str, Any] = field(default_factory=dict)
-    run: RunFolder | None = None
-    calls: RunFolder | None = None
+    run: RunArchive | None = None
+    calls: RunArchive | None = None
 
 
 class Method(Protocol):

@@ -13,7 +13,6 @@ from typing import Any, Final
 
 from skillwrapper.errors import InternalError
 from skillwrapper.evaluation.exact.learning_curves import Stage
-from skillwrapper.evaluation.methods.learned import read_episodes
 from skillwrapper.evaluation.methods.method import Bench, Prepared
 from skillwrapper.evaluation.problems.readers import StateReader, system_reader
 from skillwrapper.grounding import AtomSpace, Labels
@@ -23,7 +22,7 @@ from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.perception.labelling import Labeller
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world.capabilities import Enumerable, Truthful, require
 from skillwrapper.world.episode import Episode
@@ -81,7 +80,7 @@ class SystemMethod:
         if bench.source is None:
             raise InternalError(f"{self.name}: expected a source cell, got none; please report it")
         reader = system_reader(require(bench.environment, Truthful, f"the method {self.name}"))
-        episodes = read_episodes(RunFolder.open(bench.source / "run"))
+        episodes = RunArchive.open(bench.source / "run").episodes()
         recorded = RecordedStates(reader)
         done = RecordedTransitions(bench.environment.domain)
         learner = FaithfulLearner(LearnerSettings(absences=self.absences))

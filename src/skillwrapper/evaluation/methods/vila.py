@@ -13,7 +13,7 @@ from skillwrapper.evaluation.problems.causes import Cause, Diagnosis
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
-from skillwrapper.runs.folder import RunFolder
+from skillwrapper.runs.archive import make_archive
 from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.world.capabilities import Enumerable
 from skillwrapper.world.skills import SkillInstance
@@ -129,9 +129,8 @@ class VilaMethod:
     def prepare(self, bench: Bench) -> Iterator[Prepared]:
         """Open the model."""
         config = bench.config()
-        path = bench.folder / "run"
-        folder = RunFolder.create_or_resume(path, config, bench.package.file)
-        with open_session(config, folder.calls, learning=False) as session:
+        archive = make_archive(bench.folder / "run", config, bench.environment.domain)
+        with open_session(config, archive.layout.calls, learning=False) as session:
             yield Prepared(
                 VilaSolver(
                     bench.environment,
@@ -139,7 +138,7 @@ class VilaMethod:
                     bench.settings.actions,
                     lambda: session.counter.answered,
                 ),
-                calls=folder,
+                calls=archive,
             )
 
 

@@ -18,9 +18,7 @@ from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.evaluation.study.scoring import Readings
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.perception.questions import EvaluationQuestion
-from skillwrapper.runs.folder import CONFIG, RunFolder
-from skillwrapper.runs.learned import LearnedRun
-from skillwrapper.runs.settings import RunSettings
+from skillwrapper.runs.archive import RunArchive
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world.capabilities import Enumerable, require
 from skillwrapper.world.domain import Domain
@@ -200,11 +198,11 @@ def subject_of(
     Raises:
         UserError: if there is no such domain or run, or the labels are not usable.
     """
-    if (Path(target) / CONFIG).is_file():
-        learned = LearnedRun.read(RunFolder.open(Path(target)))
-        config: RunSettings = learned.folder.config()
-        domain, predicates = learned.model.domain, learned.model.predicates
-        package, truth = find_domain(config.domain), None
+    if RunArchive.is_one(Path(target)):
+        archive = RunArchive.open(Path(target))
+        learned = archive.latest().model
+        domain, predicates = learned.domain, learned.predicates
+        package, truth = find_domain(archive.settings().domain), None
         origin = f"learned predicates of {target}, true by the embedded model without noise"
     else:
         package = find_domain(target)

@@ -1,23 +1,35 @@
-"""Whole runs of Algorithm 1 in a folder: what is learned, what is written, what a crash does."""
+"""Whole runs of Algorithm 1: what is learned, what is written, what a crash does."""
 
 from __future__ import annotations
 
 import csv
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from lamps import LampAssistant, LampEnvironment, domain_file, lamp_domain
+from lamps import LampAssistant, LampEnvironment, lamp_domain
 
-from skillwrapper.errors import ModelUnavailableError, RobotError
+from skillwrapper.errors import ModelUnavailableError, RobotError, UnknownNameError
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.runs.events import EventKind, RunEvent
-from skillwrapper.runs.folder import RunFolder
-from skillwrapper.runs.learned import LearnedRun
-from skillwrapper.runs.loop import LearningResult, LearningRun
+from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm
+from skillwrapper.runs.archive import ArchiveWriter, RunArchive, make_archive
+from skillwrapper.runs.events import (
+    EpisodeStarted,
+    IterationFinished,
+    IterationStarted,
+    PredicateDecided,
+    RunEvent,
+    RunFinished,
+    SequenceChosen,
+    SkillExecuted,
+)
+from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom
+from skillwrapper.symbols.files import read_model
+from skillwrapper.world import Observation, Scene
 
 CONFIG = RunSettings(
     domain="lamps",
@@ -40,20 +52,22 @@ class Setting:
         assistant: LampAssistant | None = None,
         **changes: object,
     ) -> LearningResult:
-        config = self.config.model_copy(update=changes)
+        settings = self.config.model_copy(update=changes)
         self.path.mkdir(exist_ok=True)
-        self.folder = RunFolder.create_or_resume(self.path / "run", config, domain_file(self.path))
-        return LearningRun(
-            self.folder,
-            config,
-            environment or LampEnvironment(lamp_domain(self.path)),
-            assistant or LampAssistant(),  # type: ignore[arg-type]
-            self.events.append,
+        domain = lamp_domain(self.path)
+        self.archive = make_archive(self.path / "run", settings, domain)
+        layout = self.archive.layout
+        return LearningAlgorithm(
+            settings,
+            environment or LampEnvironment(domain),
+            assistant or LampAssistant(),
+            [ArchiveWriter(self.archive), self.events.append],
+            EarlierRun(self.archive.episode, layout.finished_iterations()),
         ).run()
 
     def files(self, *parts: str) -> dict[str, bytes]:
         """What a run leaves that tells nothing of when it happened."""
-        root = self.folder.path
+        root = self.archive.path
         return {
             str(p.relative_to(root)): p.read_bytes()
             for part in parts
@@ -80,7 +94,7 @@ def test_from_nothing_to_a_model_that_accounts_for_all(tmp_path: Path) -> None:
     assert result.fit.inconsistencies == ()
     assert result.unresolved == ()
     assert result.certificate.violations == ()
-    figures = result.to_json()
+    figures = result.figures.model_dump()
     assert figures["inconsistencies_by_kind"] == {
         "precondition": 0,
         "effect": 0,
@@ -91,9 +105,9 @@ def test_from_nothing_to_a_model_that_accounts_for_all(tmp_path: Path) -> None:
 
 
 def test_every_iteration_is_described(whole: Setting) -> None:
-    root = whole.folder.path
+    root = whole.archive.path
     for number in (1, 2, 3):
-        target = whole.folder.iteration(number)
+        target = whole.archive.layout.iteration(number)
         assert {p.name for p in target.iterdir()} == {
             "certificate.json",
             "decisions.json",
@@ -113,37 +127,35 @@ def test_every_iteration_is_described(whole: Setting) -> None:
         "predicates.yaml",
     }
     assert json.loads((root / "result.json").read_text())["iterations"] == 3
-    learned = LearnedRun.read(whole.folder)
-    assert learned.summary["executions"] == 24
-    assert [p.name for p in learned.model.predicates] == [
-        p.name for p in LearnedRun.read(RunFolder.open(root)).model.predicates
-    ]
+    latest = RunArchive.open(root).latest()
+    assert latest.summary.executions == 24
+    assert latest.model == read_model(root / "model" / "model.json", latest.domain)
 
 
 def test_decisions_say_why(whole: Setting) -> None:
-    decisions = json.loads((whole.folder.iteration(1) / "decisions.json").read_text())
+    decisions = json.loads((whole.archive.layout.iteration(1) / "decisions.json").read_text())
     verdicts = {(d["verdict"], d["predicate"]) for d in decisions}
     assert ("rejected", "round(?lamp)") in verdicts
     assert ("accepted", "lit(?lamp)") in verdicts
     for decision in decisions:
         assert decision["reason"]
-        for witness in decision.get("inconsistency", {}).get("witnesses", []):
+        for witness in (decision["inconsistency"] or {}).get("witnesses", []):
             for sha256 in (*witness["before"], *witness["after"]):
-                assert (whole.folder.path / "images" / f"{sha256}.png").exists()
+                assert (whole.archive.path / "images" / f"{sha256}.png").exists()
 
 
 def test_calls_that_were_needed_are_counted_beside_those_of_asking_everything_again(
     whole: Setting,
 ) -> None:
     """Three executions leave at most four pictures; every candidate would have all asked again."""
-    summary = json.loads((whole.folder.iteration(3) / "summary.json").read_text())
-    result = json.loads((whole.folder.path / "result.json").read_text())
+    summary = json.loads((whole.archive.layout.iteration(3) / "summary.json").read_text())
+    result = json.loads((whole.archive.path / "result.json").read_text())
     for name in ("evaluation_calls", "evaluation_calls_reasking"):
         assert summary[name] == result[name] > 0
-    decisions = json.loads((whole.folder.iteration(1) / "decisions.json").read_text())
-    first = json.loads((whole.folder.iteration(1) / "summary.json").read_text())
+    decisions = json.loads((whole.archive.layout.iteration(1) / "decisions.json").read_text())
+    first = json.loads((whole.archive.layout.iteration(1) / "summary.json").read_text())
     candidates = [d for d in decisions if d["verdict"] in {"accepted", "rejected"}]
-    header, *rows = (whole.folder.iteration(1) / "truth_table.csv").read_text().splitlines()
+    header, *rows = (whole.archive.layout.iteration(1) / "truth_table.csv").read_text().splitlines()
     assert header
     assert first["evaluation_calls_reasking"] == len(candidates) * len(rows)
 
@@ -160,21 +172,21 @@ def test_agreement_of_votes_is_kept_for_every_predicate(tmp_path: Path) -> None:
 
     setting = Setting(tmp_path)
     setting.run(assistant=Torn())
-    learned = LearnedRun.read(setting.folder)
+    learned = setting.archive.latest()
     assert {p.name: learned.agreement(p) for p in learned.model.predicates} == {
         p.name: 0.6667 if p.types else 1.0 for p in learned.model.predicates
     }
 
 
 def test_the_truth_table_has_a_row_a_picture(whole: Setting) -> None:
-    target = whole.folder.iteration(3)
+    target = whole.archive.layout.iteration(3)
     text = (target / "truth_table.csv").read_text()
     header, *rows = csv.reader(text.splitlines())
     assert header[0] == "observation"
     assert "lit(left)" in header
     assert len(rows) == len({row[0] for row in rows})
     for row in rows:
-        picture = (whole.folder.path / "images" / f"{row[0]}.png").read_text()
+        picture = (whole.archive.path / "images" / f"{row[0]}.png").read_text()
         assert row[header.index("lit(left)")] == str(int("lit(left)" in picture))
 
 
@@ -195,7 +207,7 @@ def test_unknown_labels_are_marked_and_counted(tmp_path: Path) -> None:
     certificate = result.certificate
     assert certificate.undecided > 0
     assert certificate.decided + certificate.undecided == certificate.transitions == 24
-    assert ",?" in (setting.folder.iteration(3) / "truth_table.csv").read_text()
+    assert ",?" in (setting.archive.layout.iteration(3) / "truth_table.csv").read_text()
 
 
 def test_same_settings_same_run(whole: Setting, tmp_path: Path) -> None:
@@ -218,7 +230,9 @@ def test_a_run_that_broke_down_ends_in_the_same_model(
     broken = Setting(tmp_path / "broken")
     with pytest.raises(RobotError):
         broken.run(LampEnvironment(lamp_domain(tmp_path), stops_after=skills))
-    assert broken.run().to_json() == json.loads((whole.folder.path / "result.json").read_text())
+    assert broken.run().figures.model_dump() == json.loads(
+        (whole.archive.path / "result.json").read_text()
+    )
     assert broken.files(*LASTING) == whole.files(*LASTING)
 
 
@@ -244,10 +258,10 @@ def test_a_model_that_does_not_answer_stops_the_run_and_loses_nothing(
 
 def test_a_finished_run_executes_nothing_more(whole: Setting) -> None:
     before = whole.files(*LASTING)
-    events = whole.folder.events.read_bytes()
+    events = whole.archive.layout.events.read_bytes()
     whole.run(LampEnvironment(lamp_domain(whole.path), stops_after=0))
     assert whole.files(*LASTING) == before
-    assert whole.folder.events.read_bytes() == events
+    assert whole.archive.layout.events.read_bytes() == events
 
 
 def test_more_iterations_go_on_where_it_ended(whole: Setting, tmp_path: Path) -> None:
@@ -256,7 +270,7 @@ def test_more_iterations_go_on_where_it_ended(whole: Setting, tmp_path: Path) ->
     assert len(environment.executed) == 8
     assert environment.resets == [4]
     straight = Setting(tmp_path / "straight")
-    assert straight.run(iterations=4).to_json() == result.to_json()
+    assert straight.run(iterations=4).figures == result.figures
     assert straight.files(*LASTING) == whole.files(*LASTING)
 
 
@@ -268,13 +282,78 @@ def test_every_iteration_starts_with_a_reset_of_its_own(tmp_path: Path) -> None:
 
 
 def test_whoever_watches_is_told(whole: Setting) -> None:
-    kinds = [e.kind for e in whole.events]
-    assert kinds[0] is EventKind.ITERATION_STARTED
-    assert kinds.count(EventKind.SEQUENCE_CHOSEN) == 3
-    assert kinds.count(EventKind.SKILL_EXECUTED) == 24
-    assert kinds.count(EventKind.ITERATION_FINISHED) == 3
-    assert EventKind.PREDICATE_DECIDED in kinds
-    lines = [json.loads(line) for line in whole.folder.events.read_text().splitlines()]
-    assert [line["event"] for line in lines] == [str(k) for k in kinds]
-    chosen = next(e for e in whole.events if e.kind is EventKind.SEQUENCE_CHOSEN)
-    assert set(chosen.data) == {"sequence", "scores", "pareto", "notes"}
+    kinds = [type(e) for e in whole.events]
+    assert kinds[:3] == [IterationStarted, SequenceChosen, EpisodeStarted]
+    assert kinds[-2:] == [IterationFinished, RunFinished]
+    assert kinds.count(SequenceChosen) == kinds.count(EpisodeStarted) == 3
+    assert kinds.count(SkillExecuted) == 24
+    assert PredicateDecided in kinds
+    lines = whole.archive.events()
+    assert [line.event for line in lines].count("skill_executed") == 24
+    chosen = next(line for line in lines if line.event == "sequence_chosen")
+    assert set(chosen.model_extra or {}) == {"sequence", "scores", "pareto", "notes"}
+
+
+def test_no_folder_is_needed(whole: Setting, tmp_path: Path) -> None:
+    """The result holds everything that the folder does."""
+    environment = LampEnvironment(lamp_domain(tmp_path))
+    result = LearningAlgorithm(CONFIG, environment, LampAssistant()).run()
+    archive = whole.archive
+    assert sorted(path.name for path in tmp_path.iterdir() if path.is_dir()) == ["whole"]
+    assert result.model == archive.latest().model
+    assert result.episodes == archive.episodes()
+    assert result.figures.model_dump() == json.loads(archive.layout.result.read_text())
+    kept = [[(d.verdict, d.reason) for d in i.decisions] for i in archive.iterations()]
+    assert [[(d.verdict, d.reason) for d in made] for made in result.decisions] == kept
+
+
+@pytest.mark.parametrize("lost", ["model", "iterations", "iterations/002", "result.json"])
+def test_what_was_lost_is_computed_again(whole: Setting, lost: str) -> None:
+    before = whole.files(*LASTING)
+    path = whole.archive.path / lost
+    shutil.rmtree(path) if path.is_dir() else path.unlink()
+    whole.run(LampEnvironment(lamp_domain(whole.path), stops_after=0))
+    assert whole.files(*LASTING) == before
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"\xff\xfe"])
+def test_what_was_damaged_is_written_again(whole: Setting, content: bytes) -> None:
+    """Every file but those that cannot be computed again: episodes, pictures, calls."""
+    before = whole.files(*LASTING)
+    root = whole.archive.path
+    for path in (*root.glob("iterations/*/*"), *root.glob("model/*"), root / "domain.yaml"):
+        path.write_bytes(content)
+    whole.run(LampEnvironment(lamp_domain(whole.path), stops_after=0))
+    assert whole.files(*LASTING) == before
+
+
+def test_scenes_take_turns(tmp_path: Path) -> None:
+    """All of the domain, or those that the settings name."""
+    plain = lamp_domain(tmp_path)
+    bench = [Scene.of(name, plain.object_by_name, plain.objects) for name in ("day", "night")]
+    domain = replace(plain, declared_scenes=tuple(bench))
+    for asked, expected in (((), ["day", "night", "day"]), (("night",), ["night"] * 3)):
+        settings = CONFIG.model_copy(update={"scenes": asked})
+        environment = TwoScenes(domain)
+        result = LearningAlgorithm(settings, environment, LampAssistant()).run()
+        assert [episode.scene.name for episode in result.episodes] == expected
+    with pytest.raises(UnknownNameError, match="unknown scene 'dawn'"):
+        LearningAlgorithm(
+            CONFIG.model_copy(update={"scenes": ("dawn",)}),
+            TwoScenes(domain),
+            LampAssistant(),
+        )
+
+
+class TwoScenes(LampEnvironment):
+    """Lamps that are in the scene that was asked for last."""
+
+    _scene = ""
+
+    @property
+    def scene(self) -> Scene:
+        return self.domain.scene(self._scene)
+
+    def reset(self, *, seed: int, scene: str | None = None) -> Observation:
+        self._scene = self.domain.scene(scene).name
+        return super().reset(seed=seed, scene=scene)

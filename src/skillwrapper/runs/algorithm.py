@@ -1,0 +1,252 @@
+"""Algorithm 1 of the paper: explore, invent, learn, and again; takes and gives values.
+
+A run is resumed by running it again from the start: recorded skills are read instead of executed,
+recorded replies are served instead of asked for, and everything else is computed afresh. So a
+resumed run takes the same decisions as one that was never stopped (docs/semantics.md D14).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from skillwrapper.exploration.coverage import PairCounts
+from skillwrapper.exploration.explorer import SequenceProposer
+from skillwrapper.exploration.explorers import NextSkill, Situation, make_explorer
+from skillwrapper.grounding import AtomSpace
+from skillwrapper.invention.batch import BatchAdviser, BatchInventor
+from skillwrapper.invention.convergence import Convergence
+from skillwrapper.invention.fitter import Fitter
+from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
+from skillwrapper.invention.proposer import Adviser, ModelProposer
+from skillwrapper.invention.pruning import prune
+from skillwrapper.invention.vocabulary import Vocabulary
+from skillwrapper.learning.certification import certify
+from skillwrapper.learning.inconsistencies import distinct_causes
+from skillwrapper.learning.learner import make_learner
+from skillwrapper.perception.labelling import Labeller
+from skillwrapper.perception.reading_calls import ReadingCalls
+from skillwrapper.perception.truth_table import PictureReader, TruthTable
+from skillwrapper.runs.decisions import PredicateDecision
+from skillwrapper.runs.episodes import EpisodeRunner, EpisodeSoFar
+from skillwrapper.runs.events import (
+    IterationFinished,
+    IterationStarted,
+    Observer,
+    PredicateDecided,
+    RunEvent,
+    RunFinished,
+    SequenceChosen,
+)
+from skillwrapper.runs.results import LearningResult, ReadingCosts, SceneLabels
+from skillwrapper.runs.settings import RunSettings
+from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.recorded import RecordedTransitions
+from skillwrapper.world.environment import Environment
+from skillwrapper.world.episode import Episode, Transition
+from skillwrapper.world.observation import Observation
+
+
+class Respondent(SequenceProposer, Adviser, BatchAdviser, PictureReader, Protocol):
+    """Who answers the questions of a run; ``vlm.assistant.Assistant`` is one."""
+
+
+def _nothing(number: int) -> EpisodeSoFar | None:
+    return None
+
+
+@dataclass(frozen=True)
+class EarlierRun:
+    """What an earlier run with the same settings has left.
+
+    Attributes:
+        episode: the record of an episode, by its number from 1; None where there is none.
+        finished: how many iterations it has finished; they stay part of the run.
+    """
+
+    episode: Callable[[int], EpisodeSoFar | None] = _nothing
+    finished: int = 0
+
+
+class LearningAlgorithm:
+    """A run of Algorithm 1.
+
+    Args:
+        settings: what to do.
+        environment: the robot or simulator.
+        assistant: the models.
+        observers: told of every event.
+        earlier: what is there already; nothing for a new run.
+
+    Raises:
+        UnknownNameError: if the settings name a scene that the domain does not have.
+    """
+
+    def __init__(
+        self,
+        settings: RunSettings,
+        environment: Environment,
+        assistant: Respondent,
+        observers: Sequence[Observer] = (),
+        earlier: EarlierRun | None = None,
+    ) -> None:
+        domain = environment.domain
+        self._settings, self._observers = settings, tuple(observers)
+        self._earlier = earlier or EarlierRun()
+        names = settings.scenes or domain.scenes
+        self._scenes = tuple(domain.scene(name).name for name in names)
+        self._runner = EpisodeRunner(environment, self._tell)
+        self._recorded = RecordedTransitions(domain)
+        self._truth = TruthTable(domain, assistant)
+        asking = settings.model.asking
+        self._readings = ReadingCalls(self._truth, asking.batch_size, asking.votes)
+        exploration = settings.exploration
+        self._explorer = make_explorer(domain, assistant, exploration, settings.seed)
+        lifted = exploration.pairs == "skills"
+        self._pairs = PairCounts(domain.skill_instances, lifted=lifted)
+        labeller = Labeller(self._recorded, self._truth)
+        self._fitter = Fitter(labeller, make_learner(settings.learning))
+        self._vocabulary = Vocabulary(domain.types)
+        self._inventor = self._make_inventor(assistant)
+        self._convergence = Convergence(self._fitter)
+        self._converged = False
+        self._iteration = 0
+        self._transitions: list[Transition] = []
+        self._episodes: list[Episode] = []
+        self._decisions: list[list[PredicateDecision]] = []
+
+    def run(self) -> LearningResult:
+        """Run all iterations, or what is left of them.
+
+        Raises:
+            ProviderError: if a model does not answer.
+            RobotError: if the environment fails.
+            LimitReachedError: if a limit of the user's is reached; the run can be resumed.
+        """
+        while self._iteration < self._settings.iterations and not self._is_over():
+            self._iterate()
+        result = self._result()
+        self._tell(RunFinished(self._iteration, result))
+        return result
+
+    def _is_over(self) -> bool:
+        """Whether the run has converged; iterations that are there already stay part of it."""
+        return self._converged and self._iteration >= self._earlier.finished
+
+    def _make_inventor(self, assistant: Respondent) -> Inventor | BatchInventor:
+        learning = self._settings.learning
+        if learning.invention == "batch":
+            return BatchInventor(
+                self._fitter, self._vocabulary, assistant, learning.batch_size, self._decided
+            )
+        proposer = ModelProposer(self._recorded, assistant, learning.candidates)
+        return Inventor(self._fitter, self._vocabulary, proposer, learning, self._decided)
+
+    def _iterate(self) -> None:
+        self._iteration += 1
+        self._decisions.append([])
+        budget = self._settings.exploration.budget
+        self._tell(IterationStarted(self._iteration, self._settings.iterations, budget))
+        self._finish(self._explore())
+        self._converged = self._settings.until_converged and self._convergence.is_reached()
+        self._inventor.invent()
+        if self._settings.learning.prune:
+            for pruned in prune(self._fitter, self._vocabulary):
+                self._note(PredicateDecision.of_pruned(pruned))
+        result = self._result()
+        self._convergence.remember(result.fit)
+        self._tell(IterationFinished(self._iteration, result, self._labels(result)))
+
+    def _explore(self) -> Episode:
+        scene = self._scenes[(self._iteration - 1) % len(self._scenes)]
+        recorded = self._earlier.episode(self._iteration)
+        if recorded is not None:
+            return self._runner.follow(self._iteration, recorded, scene, self._next_skill)
+        seed = self._settings.layout_seed(self._iteration)
+        return self._runner.run(self._iteration, seed, scene, self._next_skill)
+
+    def _next_skill(self, done: EpisodeSoFar) -> NextSkill:
+        """What the explorer chooses to run next, as long as the budget lasts."""
+        self._take(done.to_episode())
+        left = self._settings.exploration.budget - len(done.transitions)
+        if left <= 0:
+            return NextSkill(None, "the budget is spent")
+        situation = Situation(
+            done.scene,
+            done.observation,
+            tuple(done.transitions),
+            left,
+            learn=lambda: self._fitter.fit(self._vocabulary.active),
+            read=lambda space: self._truth.labels(space, [done.observation])[0],
+        )
+        chosen = self._explorer.next_skill(situation)
+        if chosen.sequence is not None:
+            self._tell(SequenceChosen(self._iteration, chosen.sequence))
+        return chosen
+
+    def _take(self, episode: Episode) -> None:
+        """Take into the data what was executed since the last time."""
+        finished = sum(len(e.transitions) for e in self._episodes)
+        new = episode.transitions[len(self._transitions) - finished :]
+        self._transitions += new
+        self._recorded.add(replace(episode, transitions=new))
+
+    def _finish(self, episode: Episode) -> None:
+        """Take note of an episode that has ended."""
+        self._take(episode)
+        self._episodes.append(episode)
+        self._pairs.add(t.instance for t in episode.transitions)
+        self._explorer.record(episode)
+        self._readings.count_arrival(self._everything(self._vocabulary.active))
+
+    def _result(self) -> LearningResult:
+        fit = self._fitter.fit(self._vocabulary.active)
+        agreement = {p.name: self._truth.agreement(p) for p in fit.predicates}
+        return LearningResult(
+            fit=fit,
+            certificate=certify(fit),
+            unresolved=distinct_causes(fit.inconsistencies),
+            episodes=tuple(self._episodes),
+            decisions=tuple(map(tuple, self._decisions)),
+            converged=self._converged,
+            readings=ReadingCosts(self._readings.needed, self._readings.reasking),
+            pairs_covered=self._pairs.share_covered(),
+            agreement={name: share for name, share in agreement.items() if share is not None},
+        )
+
+    def _labels(self, result: LearningResult) -> tuple[SceneLabels, ...]:
+        return tuple(
+            SceneLabels(space, observations, self._truth.labels(space, observations))
+            for space, observations in self._everything(result.fit.predicates)
+        )
+
+    def _decided(self, decision: CandidateDecision) -> None:
+        if self._is_invention(decision):
+            vocabulary = self._vocabulary.with_candidate(decision.predicate)
+            self._readings.count_invention(self._everything(vocabulary))
+        self._note(PredicateDecision.of_candidate(decision, self._transitions))
+
+    def _is_invention(self, decision: CandidateDecision) -> bool:
+        """Whether a candidate is new; one that is taken in the end after all was counted before."""
+        if decision.inconsistency is None:
+            return False
+        if decision.verdict is Verdict.ACCEPTED:
+            return decision.predicate not in self._vocabulary.rejected
+        return decision.verdict is Verdict.REJECTED
+
+    def _note(self, decision: PredicateDecision) -> None:
+        self._decisions[-1].append(decision)
+        self._tell(PredicateDecided(self._iteration, decision))
+
+    def _everything(
+        self, predicates: Sequence[Predicate]
+    ) -> Iterator[tuple[AtomSpace, Sequence[Observation]]]:
+        """All groundings and all pictures of every scene."""
+        for scene in self._recorded.scenes:
+            space = AtomSpace(tuple(predicates), scene.objects)
+            yield space, self._recorded.observations(scene)
+
+    def _tell(self, event: RunEvent) -> None:
+        for observer in self._observers:
+            observer(event)

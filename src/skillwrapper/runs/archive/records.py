@@ -1,0 +1,159 @@
+"""What the files of a run hold, as types: whatever is read from them has passed through these."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, RootModel
+
+from skillwrapper.runs.figures import RunFigures
+
+FORMAT = 1
+"""Of the whole folder; a reader of another format says so instead of guessing."""
+
+Count = Annotated[int, Field(ge=0, le=2**53)]
+Share = Annotated[float, Field(ge=0.0, le=1.0)]
+Sha256 = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+
+
+class Record(BaseModel):
+    """What one file, or one line of a file, holds."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+
+class PictureRecord(Record):
+    """A picture of an observation; the file in ``images/`` is named by its content."""
+
+    camera: str
+    sha256: Sha256
+
+
+class SceneRecord(Record):
+    """A scene: its name and the names of its objects."""
+
+    name: str
+    objects: tuple[str, ...]
+
+
+class EpisodeRecord(Record):
+    """The first line of an episode: where it started."""
+
+    scene: SceneRecord
+    seed: int
+    start: tuple[PictureRecord, ...] = Field(min_length=1)
+
+
+class ExecutionRecord(Record):
+    """Every further line of an episode: a skill, and what came of it."""
+
+    skill: str
+    arguments: tuple[str, ...]
+    success: bool
+    message: str
+    after: tuple[PictureRecord, ...] = Field(min_length=1)
+    changed: bool | None = None
+
+
+class WitnessRecord(Record):
+    """A transition that an inconsistency speaks of."""
+
+    transition: Count
+    instance: str
+    success: bool
+    before: tuple[Sha256, ...]
+    after: tuple[Sha256, ...]
+
+
+class InconsistencyRecord(Record):
+    """An inconsistency with its transitions and pictures."""
+
+    kind: str
+    skill: str
+    witnesses: tuple[WitnessRecord, ...]
+    unexplained: tuple[str, ...]
+
+
+class DecisionRecord(Record):
+    """What was decided of a predicate, and why."""
+
+    verdict: str
+    predicate: str
+    semantics: str = ""
+    score: float | None = None
+    reason: str
+    inconsistency: InconsistencyRecord | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the predicate, without its parameters."""
+        return self.predicate.partition("(")[0]
+
+
+class ViolationRecord(Record):
+    """A transition that breaks a statement of the certificate."""
+
+    statement: str
+    skill: str
+    transition: Count
+    partner: Count | None
+    reason: str
+
+
+class CertificateRecord(Record):
+    """Lemma 1 and Theorem 1 on the recorded data."""
+
+    transitions: Count
+    decided: Count
+    undecided: Count
+    no_ops: Count
+    violations: tuple[ViolationRecord, ...]
+    lemma1_violations: Count
+    theorem1_violations: Count
+
+
+class SummaryRecord(RunFigures):
+    """Figures at the end of an iteration."""
+
+    pairs_covered: Share
+    untested: dict[str, tuple[str, ...]]
+    agreement: dict[str, Share]
+
+
+class EventRecord(BaseModel):
+    """A line of the log: when, what, in which iteration, and whatever describes it."""
+
+    model_config = ConfigDict(extra="allow", frozen=True, strict=True, allow_inf_nan=False)
+
+    # The year 9999: what comes later is no time that calendars can tell.
+    time: float = Field(ge=0.0, le=253_402_300_799.0)
+    event: str
+    iteration: Count
+
+
+class CurvePointRecord(Record):
+    """Exact figures of the model after so many executions; a figure may be missing."""
+
+    executions: Count
+    precision: Share | None = None
+    recall: Share | None = None
+    effect_accuracy: Share | None = None
+    predicates: Count | None = None
+    operators: Count | None = None
+
+
+class DecisionsFile(RootModel[tuple[DecisionRecord, ...]]):
+    """``decisions.json``."""
+
+
+class UnresolvedFile(RootModel[tuple[InconsistencyRecord, ...]]):
+    """``unresolved.json``."""
+
+
+class CurveFile(RootModel[tuple[CurvePointRecord, ...]]):
+    """``curve.json``."""
+
+
+def to_plain(record: BaseModel) -> Any:
+    """A record as plain data."""
+    return record.model_dump(mode="json")

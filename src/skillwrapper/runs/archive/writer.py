@@ -1,0 +1,214 @@
+"""Writing the folder of a run, as one that watches it.
+
+What cannot be computed again is on the disk before the run goes on. All else is compared with
+what is there and written where it differs, so that a resumed run mends what was lost.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from skillwrapper.exploration.explorer import Choice
+from skillwrapper.files.writing import append_line, json_text, write_atomically
+from skillwrapper.learning.inconsistencies import Inconsistency
+from skillwrapper.learning.untested import find_untested
+from skillwrapper.runs.archive.archive import RunArchive
+from skillwrapper.runs.archive.labels import truth_table
+from skillwrapper.runs.archive.records import (
+    DecisionRecord,
+    EpisodeRecord,
+    ExecutionRecord,
+    InconsistencyRecord,
+    SceneRecord,
+    SummaryRecord,
+    WitnessRecord,
+    to_plain,
+)
+from skillwrapper.runs.decisions import NumberedTransition, PredicateDecision, witnesses_of
+from skillwrapper.runs.events import (
+    EpisodeStarted,
+    IterationFinished,
+    IterationStarted,
+    PredicateDecided,
+    RunEvent,
+    RunFinished,
+    SequenceChosen,
+    SkillExecuted,
+)
+from skillwrapper.runs.results import LearningResult
+from skillwrapper.symbols.describe import describe_model
+from skillwrapper.symbols.files import model_to_json, predicates_to_yaml
+from skillwrapper.symbols.pddl import print_domain
+from skillwrapper.world.episode import Transition
+from skillwrapper.world.observation import Observation
+
+_FINISHED = "iteration_finished"
+
+
+class ArchiveWriter:
+    """Writes down what happens in a run (an ``Observer``).
+
+    Args:
+        archive: where.
+    """
+
+    def __init__(self, archive: RunArchive) -> None:
+        self._archive, self._layout = archive, archive.layout
+        logged = (e.iteration for e in archive.events() if e.event == _FINISHED)
+        self._logged = max(logged, default=0)
+
+    def __call__(self, event: RunEvent) -> None:
+        """Write an event down."""
+        match event:
+            case EpisodeStarted():
+                self._start_episode(event)
+            case SkillExecuted():
+                self._record(event)
+            case IterationFinished():
+                self._write_iteration(event)
+            case RunFinished():
+                self._write_result(event.result)
+        self._log(event)
+
+    def _start_episode(self, event: EpisodeStarted) -> None:
+        record = EpisodeRecord(
+            scene=SceneRecord(name=event.scene.name, objects=event.scene.names),
+            seed=event.seed,
+            start=self._archive.pictures.save(event.start),
+        )
+        append_line(self._layout.episode(event.iteration), to_plain(record))
+
+    def _record(self, event: SkillExecuted) -> None:
+        transition = event.transition
+        record = ExecutionRecord(
+            skill=transition.instance.skill,
+            arguments=transition.instance.arguments,
+            success=transition.success,
+            message=event.message,
+            after=self._archive.pictures.save(transition.after),
+            changed=transition.changed,
+        )
+        line = record.model_dump(mode="json", exclude_none=True)
+        append_line(self._layout.episode(event.iteration), line)
+
+    def _write_iteration(self, event: IterationFinished) -> None:
+        """Describe an iteration; the summary comes last, and marks it finished."""
+        folder, result = self._layout.iteration(event.iteration), event.result
+        decisions = map(_decision_record, result.decisions[-1])
+        _keep(folder / "predicates.yaml", predicates_to_yaml(result.model.predicates))
+        _keep(folder / "model.json", model_to_json(result.model))
+        _keep(folder / "operators.txt", describe_model(result.model))
+        _keep(folder / "truth_table.csv", truth_table(event.labels))
+        _keep(folder / "certificate.json", json_text(result.certificate.to_json()))
+        _keep(folder / "unresolved.json", json_text(_unresolved(result)))
+        _keep(folder / "decisions.json", json_text([to_plain(d) for d in decisions]))
+        _keep(folder / "summary.json", json_text(to_plain(_summary(result))))
+
+    def _write_result(self, result: LearningResult) -> None:
+        """The learned model, and the figures of the run."""
+        model = result.model
+        _keep(self._layout.model / "predicates.yaml", predicates_to_yaml(model.predicates))
+        _keep(self._layout.model / "model.json", model_to_json(model))
+        _keep(self._layout.model / "domain.pddl", print_domain(model))
+        _keep(self._layout.result, json_text(to_plain(result.figures)))
+
+    def _log(self, event: RunEvent) -> None:
+        """Put a line into the log, unless an earlier run has."""
+        described = _describe(event)
+        if described is None or event.iteration <= self._logged:
+            return
+        name, data = described
+        head = {"time": round(time.time(), 3), "event": name, "iteration": event.iteration}
+        append_line(self._layout.events, {**data, **head}, durable=False)
+
+
+def _keep(path: Path, content: str) -> None:
+    """Write a file, unless it holds the same already."""
+    try:
+        if path.read_text(encoding="utf-8") == content:
+            return
+    except (OSError, UnicodeDecodeError):
+        """It is missing or damaged, so it is written anew."""
+    write_atomically(path, content)
+
+
+def _describe(event: RunEvent) -> tuple[str, dict[str, Any]] | None:
+    """The name of an event in the log, and what describes it; None for what is not logged."""
+    match event:
+        case IterationStarted():
+            return "iteration_started", {"total": event.iterations, "budget": event.budget}
+        case SequenceChosen():
+            return "sequence_chosen", _describe_choice(event.choice)
+        case SkillExecuted():
+            done = event.transition
+            told = {"instance": str(done.instance), "success": done.success}
+            return "skill_executed", {**told, "reason": event.reason}
+        case PredicateDecided():
+            return "predicate_decided", to_plain(_decision_record(event.decision))
+        case IterationFinished():
+            return _FINISHED, to_plain(event.result.figures)
+    return None
+
+
+def _describe_choice(choice: Choice) -> dict[str, Any]:
+    return {
+        "sequence": [str(i) for i in choice.sequence],
+        "scores": [{"balance": c.balance, "coverage": c.coverage} for c in choice.candidates],
+        "pareto": list(choice.pareto),
+        "notes": list(choice.notes),
+    }
+
+
+def _summary(result: LearningResult) -> SummaryRecord:
+    untested = find_untested(result.fit)
+    return SummaryRecord(
+        **result.figures.model_dump(),
+        pairs_covered=result.pairs_covered,
+        untested={name: tuple(sorted(map(str, found))) for name, found in untested.items()},
+        agreement={name: round(share, 4) for name, share in result.agreement.items()},
+    )
+
+
+def _unresolved(result: LearningResult) -> list[Any]:
+    transitions = result.transitions
+    return [to_plain(_inconsistency(i, witnesses_of(i, transitions))) for i in result.unresolved]
+
+
+def _decision_record(decision: PredicateDecision) -> DecisionRecord:
+    asked_for = decision.inconsistency
+    return DecisionRecord(
+        verdict=decision.verdict,
+        predicate=decision.predicate.signature,
+        semantics=decision.predicate.semantics,
+        score=decision.score,
+        reason=decision.reason,
+        inconsistency=_inconsistency(asked_for, decision.witnesses) if asked_for else None,
+    )
+
+
+def _inconsistency(
+    inconsistency: Inconsistency, witnesses: Iterable[NumberedTransition]
+) -> InconsistencyRecord:
+    return InconsistencyRecord(
+        kind=str(inconsistency.kind),
+        skill=inconsistency.skill,
+        witnesses=tuple(_witness(w.number, w.transition) for w in witnesses),
+        unexplained=tuple(map(str, inconsistency.unexplained)),
+    )
+
+
+def _witness(number: int, transition: Transition) -> WitnessRecord:
+    return WitnessRecord(
+        transition=number,
+        instance=str(transition.instance),
+        success=transition.success,
+        before=_shas(transition.before),
+        after=_shas(transition.after),
+    )
+
+
+def _shas(observation: Observation) -> tuple[str, ...]:
+    return tuple(picture.sha256 for picture in observation.pictures)

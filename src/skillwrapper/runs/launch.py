@@ -1,0 +1,155 @@
+"""From settings to a run: its environment, its models, its folder, and Algorithm 1 among them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.errors import ProviderError, RunFolderError, UserError
+from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm
+from skillwrapper.runs.archive import (
+    ArchiveWriter,
+    RunArchive,
+    discard_beginning,
+    make_archive,
+    reserved,
+)
+from skillwrapper.runs.events import Observer, RunEvent, RunStarted
+from skillwrapper.runs.model_sessions import CallCounter, open_session
+from skillwrapper.runs.models import check_models
+from skillwrapper.runs.results import LearningResult
+from skillwrapper.runs.settings import RunSettings
+from skillwrapper.runs.settings_layers import SettingsLayers
+from skillwrapper.vlm.protocol import VisionLanguageModel
+from skillwrapper.world.environment import Environment
+
+
+def learn(
+    settings: RunSettings | Mapping[str, Any],
+    out: Path | str | None = None,
+    *,
+    environment: Environment | None = None,
+    model: VisionLanguageModel | None = None,
+    observers: Sequence[Observer] = (),
+) -> LearningResult:
+    """Run Algorithm 1, in a folder or without one.
+
+    Args:
+        settings: what to do; a mapping leaves out what stays at its default, and may name
+            settings with dots: ``{"domain": "burger", "learning.attempts": 5}``.
+        out: the folder of the run; one that holds a run with the same settings is resumed. None
+            keeps nothing but the result.
+        environment: the robot or simulator; None for that of the domain that the settings name.
+            One that is given stays open.
+        model: answers every role in place of the models that the settings name.
+        observers: told of every event, in order.
+
+    Raises:
+        UserError: if the settings or the folder cannot be used, also because another process is
+            learning in it.
+        ProviderError: if a model does not answer.
+        RobotError: if the environment fails.
+        LimitReachedError: if a limit of the user's is reached; the run can be resumed.
+    """
+    chosen = _settings(settings, environment)
+    if model is None:
+        check_models(chosen)  # first: a mistake in a name or a key leaves no folder behind
+    with _environment(chosen, environment) as world:
+        if out is None:
+            return _run(chosen, world, model, None, observers)
+        with reserved(Path(out)):
+            return _run_in(Path(out), chosen, world, model, observers)
+
+
+def _run_in(
+    out: Path,
+    settings: RunSettings,
+    environment: Environment,
+    model: VisionLanguageModel | None,
+    observers: Sequence[Observer],
+) -> LearningResult:
+    """Run in a folder that is ours; a start that comes to nothing leaves nothing behind."""
+    is_new = not RunArchive(out).layout.config.exists()
+    archive = make_archive(out, settings, environment.domain)
+    _check_length(archive, settings)
+    try:
+        return _run(settings, environment, model, archive, observers)
+    except (UserError, ProviderError):
+        if is_new and not _has_records(archive):
+            discard_beginning(archive)  # so that the mistake can be mended under this name
+        raise
+
+
+def _run(
+    settings: RunSettings,
+    environment: Environment,
+    model: VisionLanguageModel | None,
+    archive: RunArchive | None,
+    observers: Sequence[Observer],
+) -> LearningResult:
+    store = archive.layout.calls if archive else None
+    with open_session(settings, store, model=model) as session:
+        watching: list[Observer] = [_iteration_counter(session.counter)]
+        earlier = None
+        if archive is not None:
+            watching.append(ArchiveWriter(archive))
+            earlier = EarlierRun(archive.episode, archive.layout.finished_iterations())
+        watching += observers
+        for observer in watching:
+            observer(RunStarted(0, session.counter))
+        return LearningAlgorithm(settings, environment, session.assistant, watching, earlier).run()
+
+
+def _settings(
+    settings: RunSettings | Mapping[str, Any], environment: Environment | None
+) -> RunSettings:
+    """The settings with their domain as it is found again from anywhere."""
+    if not isinstance(settings, RunSettings):
+        layers = SettingsLayers(RunSettings)
+        if environment is not None:
+            layers.add("domain", environment.domain.name, "domain")
+        for name, value in settings.items():
+            layers.add_any(name, value)
+        settings = layers.build()
+    if environment is not None:
+        return settings
+    return settings.model_copy(update={"domain": find_domain(settings.domain).reference})
+
+
+@contextmanager
+def _environment(settings: RunSettings, given: Environment | None) -> Iterator[Environment]:
+    if given is not None:
+        yield given
+        return
+    with closing(find_domain(settings.domain).make_environment()) as made:
+        yield made
+
+
+def _iteration_counter(counter: CallCounter) -> Observer:
+    """Tells the call store which iteration asks."""
+
+    def note(event: RunEvent) -> None:
+        counter.iteration = event.iteration or None
+
+    return note
+
+
+def _check_length(archive: RunArchive, settings: RunSettings) -> None:
+    """A shorter run would put its model in the place of the longer one's."""
+    finished = archive.layout.finished_iterations()
+    if settings.iterations < finished:
+        raise RunFolderError(
+            f"{archive.path}: {finished} iterations are finished, and only {settings.iterations} "
+            f"were asked for; give --iterations {finished} or more, or choose another --out"
+        )
+
+
+def _has_records(archive: RunArchive) -> bool:
+    """Whether a skill was executed, or a model said anything."""
+    if archive.layout.episode(1).exists():
+        return True
+    with archive.open_calls() as store:
+        return store is not None and any(store.calls())
