@@ -76,7 +76,14 @@ def strip_user_info(text: str) -> str:
     return _USER_INFO.sub(r"\1", text) if "://" in text else text
 
 
-SafeUrl = Annotated[str, PlainSerializer(strip_user_info)]
+def safe_address(address: str) -> str:
+    """An address as a user gave it, perhaps without a scheme, without all that may be secret."""
+    scheme, separator, rest = address.rpartition("://")
+    host, slash, path = rest.partition("/")
+    return redact(f"{scheme}{separator}{host.rpartition('@')[2]}{slash}{path}")
+
+
+SafeUrl = Annotated[str, PlainSerializer(safe_address)]
 """The type of an address in settings: whole in memory, without credentials wherever it goes."""
 
 
@@ -103,7 +110,8 @@ class Redactor:
         """
         named = [value for name, value in environment.items() if _SECRET_NAME.search(name)]
         addresses = [value for name, value in environment.items() if _PROXY_NAME.search(name)]
-        found = {form for value in (*values, *named, *addresses) for form in _forms(value.strip())}
+        found = {form for value in (*values, *named) for form in _forms(value.strip())}
+        found |= {form for address in addresses for form in _forms_of_login(address.strip())}
         return cls(tuple(sorted(filter(_is_secret, found), key=lambda form: (-len(form), form))))
 
     def redact(self, text: str) -> str:
@@ -116,11 +124,16 @@ class Redactor:
 
 def _forms(value: str) -> Iterator[str]:
     """The forms in which a secret may come back: as it is, in a URL, in JSON, as basic login."""
-    if "://" not in value:
+    if "://" in value:
+        yield from _forms_of_login(value)
+    else:
         yield from (value, quote(value, safe=""), json.dumps(value)[1:-1])
-        return
+
+
+def _forms_of_login(address: str) -> Iterator[str]:
+    """The same for the credentials in an address."""
     try:
-        parts = urlsplit(value)
+        parts = urlsplit(address if "://" in address else f"http://{address}")
         user, password = parts.username or "", parts.password or ""
     except ValueError:
         return

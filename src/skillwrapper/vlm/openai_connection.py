@@ -20,7 +20,7 @@ import httpx2
 import openai
 
 from skillwrapper.errors import AuthenticationError, ConfigurationError, MissingDependencyError
-from skillwrapper.redaction import Redactor, redact, strip_user_info
+from skillwrapper.redaction import Redactor, redact, safe_address, strip_user_info
 
 KEY_VARIABLE = "OPENAI_API_KEY"
 """The environment variable that holds the key; the key is never taken from anywhere else."""
@@ -119,7 +119,7 @@ def open_client(endpoint: Endpoint, timeout: float) -> openai.OpenAI:
         weakref.finalize(client, http_client.close)
         return client
     except (httpx2.InvalidURL, ImportError, OSError, ValueError) as error:
-        said = " ".join(redact(str(error)).split())
+        said = _shown(str(error))
         raise ConfigurationError(
             f"{endpoint.url} cannot be asked ({said}); mend --base-url, or the proxies and "
             "certificates that the environment names"
@@ -160,20 +160,27 @@ class _BoundedStream(httpx2.SyncByteStream):
 
 
 def _checked_address(url: str, source: str) -> SplitResult:
-    shown = f"'{source}': expected an address like http://localhost:8000/v1, got '{redact(url)}'"
+    got = _shown(safe_address(url))
+    shown = f"'{source}': expected an address like http://localhost:8000/v1, got '{got}'"
     if not url.isascii() or re.search(r"[\s\"'<>\\^`{|}]|[\x00-\x1f]", url):
         raise ConfigurationError(f"{shown}; it holds a blank, a quote or another odd character")
     try:
         parts = urlsplit(url)
         port, host = parts.port, parts.hostname
     except ValueError as error:
-        raise ConfigurationError(f"{shown}; {redact(str(error))}") from None
+        raise ConfigurationError(f"{shown}; {_shown(str(error))}") from None
     if parts.scheme not in {"http", "https"} or not host or port == 0:
         raise ConfigurationError(shown)
     if parts.query or parts.fragment:
         raise ConfigurationError(f"{shown}; leave out what follows '?' or '#', and set the key in "
                                  f"the environment variable {KEY_VARIABLE}")  # fmt: skip
     return parts
+
+
+def _shown(text: str) -> str:
+    """A text for a message: without secrets, on one line."""
+    plain = "".join(sign if sign.isprintable() else " " for sign in redact(text))
+    return " ".join(plain.split())
 
 
 def _is_local(host: str) -> bool:
@@ -223,13 +230,13 @@ def _check_proxies(variables: Mapping[str, str]) -> None:
 
 
 def _check_proxy(name: str, value: str) -> None:
-    shown = f"{name}: expected a proxy like http://proxy:3128, got '{redact(value)}'"
+    shown = f"{name}: expected a proxy like http://proxy:3128, got '{_shown(safe_address(value))}'"
     unset = f"mend it, or unset {name}"
     try:
         parts = urlsplit(value if "://" in value else f"http://{value}")
         scheme, host = parts.scheme, parts.hostname if parts.port != 0 else None
     except ValueError as error:
-        raise ConfigurationError(f"{shown} ({redact(str(error))}); {unset}") from None
+        raise ConfigurationError(f"{shown} ({_shown(str(error))}); {unset}") from None
     if scheme not in _PROXY_SCHEMES or not host or re.search(r"\s", value):
         raise ConfigurationError(f"{shown}; {unset}")
     if scheme.startswith("socks"):
@@ -250,7 +257,7 @@ def _check_certificates(variables: Mapping[str, str]) -> None:
         value = variables.get(name, "")
         if value and not exists(value):
             raise ConfigurationError(
-                f"{name}: expected {what}, got '{value}', which is none; mend or unset it"
+                f"{name}: expected {what}, got '{_shown(value)}', which is none; mend or unset it"
             )
 
 
