@@ -32,17 +32,18 @@ from skillwrapper.world import Domain
 SIZE = 1000
 NAMES = ParameterNames({"robot": 1, "pickupable": 2})
 UNITS = [
-    " ", "\n", "\t \n", "true ", "true\n", "(", ")", "a(", "a(b)", "a (", "((a)", "[", "]", "{", "}",
-    '{"a":', "[[", '["a",', "<", "<think>", "</think>", "<thin", "&lt;", "```", "```\n", "~~", "~~a",
-    "-", "- ", "- - ", "1. ", "1.", "#", "# ", "|", "| a ", "|---|\n", ",", ", ,", ";", ":", "::", "=",
-    "*", "**", "`", "\\", "\\n", "'", '"', "'a", "?", "?a ", "?a - b ", "x", "x ", "ab_", "a-", "a.b ",
-    "not ", "no ", "is ", "the ", "or ", "true or ", "true/", "true, ", "false: ", "if ", "[x] ", "[ ]",
-    "✓", "“", "（", "，", "①", "\x1b", "\x1b[", "\x1b]", "\ud800", "\u200b", "\r", "é", "9", "0 ", "1\n",
-    "holding(robot, patty)\n", "holding(robot, patty) ", "holding(robot, patty): true\n",
-    "holding(robot, patty)\ntrue\n", "true:\nholding(robot, patty)\n", "hodling(robto, ptaty) ",
-    "Name: a\n", "Statement: a\nReason: b\n", "Pick\n", "Pick -> ", "Pick(robot, patty) -> ",
-    "Sequence 1:\n", "Final answer:\n", "<|channel|>", "assistantfinal", "final ", "a b c (",
-    "the the ", "step 1 ", "step ", "<s>", "<li>", "predicate ", "new new ", "means ", "a: b\n",
+    " ", "\n", "\t \n", "true ", "true\n", "(", ")", "a(", "a(b)", "a (", "((a)", "[", "]", "{",
+    "}", '{"a":', "[[", '["a",', "<", "<think>", "</think>", "<thin", "&lt;", "```", "```\n",
+    "~~", "~~a", "-", "- ", "- - ", "1. ", "1.", "#", "# ", "|", "| a ", "|---|\n", ",", ", ,",
+    ";", ":", "::", "=", "*", "**", "`", "\\", "\\n", "'", '"', "'a", "?", "?a ", "?a - b ", "x",
+    "x ", "ab_", "a-", "a.b ", "not ", "no ", "is ", "the ", "or ", "true or ", "true/", "true, ",
+    "false: ", "if ", "[x] ", "[ ]", "✓", "“", "\uff08", "\uff0c", "①", "\x1b", "\x1b[", "\x1b]",
+    "\ud800", "\u200b", "\r", "é", "9", "0 ", "1\n", "holding(robot, patty)\n",
+    "holding(robot, patty) ", "holding(robot, patty): true\n", "holding(robot, patty)\ntrue\n",
+    "true:\nholding(robot, patty)\n", "hodling(robto, ptaty) ", "Name: a\n",
+    "Statement: a\nReason: b\n", "Pick\n", "Pick -> ", "Pick(robot, patty) -> ", "Sequence 1:\n",
+    "Final answer:\n", "<|channel|>", "assistantfinal", "final ", "a b c (", "the the ",
+    "step 1 ", "step ", "<s>", "<li>", "predicate ", "new new ", "means ", "a: b\n",
 ]  # fmt: skip
 
 

@@ -29,7 +29,7 @@ INLINE: list[Callable[[str, str], str]] = [
     lambda atom, word: f"{atom} is {word}, since that is what can be seen.",
     lambda atom, word: f'"{atom}": "{word}",',
     lambda atom, word: f"The statement {atom} → {word}",
-    lambda atom, word: f"{atom}：{word}。",
+    lambda atom, word: f"{atom}\uff1a{word}\u3002",
     lambda atom, word: f"{atom}? {word.title()}.",
 ]
 BELOW: list[Callable[[str, str], list[str]]] = [
@@ -43,12 +43,13 @@ BELOW: list[Callable[[str, str], list[str]]] = [
 ]
 NOISE = [
     "", "Sure!", "Here are the labels:", "---", "```", "### Results", "1.", "True or false?",
-    "The hand is empty, since nothing floats over the head.",
-    "| Statement | Label |", "Note: labels may be unsure.", "No problem!",
-    "I see a robot.", "<think>holding(robot, patty): true</think>", "Yes, here they are.", "> quote",
-    "Each statement is true, false or unsure.", "{", "}", "[", "Let me check each one.", "(a) (b)",
-    "Is holding(robot, patty) true?", "Whether is_cut(lettuce) is hard to say.", "All done.",
-    "I first look at holding(robot, lettuce) and then at is_cut(lettuce).", "Not everything is cut.",
+    "The hand is empty, since nothing floats over the head.", "| Statement | Label |",
+    "Note: labels may be unsure.", "No problem!", "I see a robot.",
+    "<think>holding(robot, patty): true</think>", "Yes, here they are.", "> quote",
+    "Each statement is true, false or unsure.", "{", "}", "[", "Let me check each one.",
+    "(a) (b)", "Is holding(robot, patty) true?", "Whether is_cut(lettuce) is hard to say.",
+    "All done.", "I first look at holding(robot, lettuce) and then at is_cut(lettuce).",
+    "Not everything is cut.",
 ]  # fmt: skip
 OTHERS = ["near(robot, stove)", "near(robot, stove): true"]
 """Not beside lone verdicts: "S / false / near(robot, stove) / true" says that S is false."""
