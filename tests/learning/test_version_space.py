@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from notebook import Notebook, instance
-from test_untested import (
+from barn import (
     BARN,
     EMPTY_HAND,
     FULL,
@@ -16,6 +15,7 @@ from test_untested import (
     ON_NOTHING,
     barn,
 )
+from notebook import Notebook, instance
 
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.grounding.abstract_states import AbstractStates

@@ -3,77 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from skillwrapper.errors import UnknownNameError
-from skillwrapper.exploration.explorer import Choice, SequenceProposer
 from skillwrapper.exploration.explorer import Explorer as SequenceChooser
+from skillwrapper.exploration.explorer import SequenceProposer
 from skillwrapper.exploration.explorer import Situation as SequenceSituation
+from skillwrapper.exploration.planned import PlannedExplorer
 from skillwrapper.exploration.repair import random_sequence
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.grounding import AtomSpace, Labels
-from skillwrapper.learning.fitting import Fit
+from skillwrapper.exploration.situation import NextSkill, Situation
 from skillwrapper.learning.untested import find_untested
 from skillwrapper.world.domain import Domain
-from skillwrapper.world.episode import Episode, Transition
-from skillwrapper.world.observation import Observation
-from skillwrapper.world.scenes import Scene
+from skillwrapper.world.episode import Episode
 from skillwrapper.world.skills import SkillInstance, ground_skills
 
-
-@dataclass(frozen=True, eq=False)
-class Situation:
-    """Where the next skill will be run; what costs model calls is done when it is looked at.
-
-    Attributes:
-        scene: the objects that are present.
-        observation: what is seen now.
-        done: the transitions of this episode so far.
-        left: how many skills may still be run in this episode, at least 1.
-        learn: learns from everything that was executed so far.
-        read: the labels (atoms,) of what is seen now.
-    """
-
-    scene: Scene
-    observation: Observation
-    done: tuple[Transition, ...]
-    left: int
-    learn: Callable[[], Fit]
-    read: Callable[[AtomSpace], Labels]
-
-    @cached_property
-    def fit(self) -> Fit:
-        """What was learned so far."""
-        return self.learn()
-
-    @cached_property
-    def space(self) -> AtomSpace:
-        """The ground atoms of the vocabulary over the objects that are present."""
-        return AtomSpace(self.fit.predicates, self.scene.objects)
-
-    @cached_property
-    def state(self) -> Labels:
-        """The abstract state (atoms,)."""
-        return self.read(self.space)
-
-
-@dataclass(frozen=True)
-class NextSkill:
-    """What to run next.
-
-    Attributes:
-        instance: the skill instance; None to end the episode.
-        reason: why, in words.
-        sequence: how the whole sequence was chosen, where it was chosen just now.
-    """
-
-    instance: SkillInstance | None
-    reason: str = ""
-    sequence: Choice | None = None
+__all__ = [
+    "EXPLORERS",
+    "Explorer",
+    "NextSkill",
+    "RandomExplorer",
+    "SequenceExplorer",
+    "Situation",
+    "make_explorer",
+]
 
 
 class Explorer(Protocol):
@@ -141,7 +96,11 @@ class RandomExplorer:
 
 
 MakeExplorer = Callable[[Domain, SequenceProposer, ExplorationSettings, int], Explorer]
-EXPLORERS: Mapping[str, MakeExplorer] = {"paper": SequenceExplorer, "random": RandomExplorer}
+EXPLORERS: Mapping[str, MakeExplorer] = {
+    "planned": lambda domain, _, settings, seed: PlannedExplorer(domain, settings, seed),
+    "paper": SequenceExplorer,
+    "random": RandomExplorer,
+}
 """The explorers by their names."""
 
 

@@ -14,7 +14,21 @@ class ExplorationSettings(BaseModel):
 
     explorer: str = Field(
         default="paper",
-        description="who chooses what to try next: paper, as published; or random",
+        description="who chooses what to try next: planned, by expected information; paper, as "
+        "published; or random",
+    )
+    lookahead: int = Field(
+        default=15,
+        ge=0,
+        description="planned looks at most so many skills ahead",
+        json_schema_extra={"unit": "skills"},
+    )
+    nodes: int = Field(
+        default=1500,
+        ge=1,
+        description="planned looks at most at so many states with what was done in them; bounds "
+        "the time that a choice takes",
+        json_schema_extra={"unit": "states"},
     )
     budget: int = Field(
         default=15,

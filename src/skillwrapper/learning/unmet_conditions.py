@@ -13,7 +13,7 @@ from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.indexed_operators import IndexedOperator
 from skillwrapper.grounding.joins import find_bindings
 
-_MOST_UNMET = 6
+MOST_UNMET = 6
 """Bindings with more unmet conditions count as ones that cannot apply."""
 
 
@@ -37,7 +37,7 @@ class UnmetConditions:
         """Look at all bindings that lack not too much."""
         unmet = [np.zeros((0, len(operator.conditions)), dtype=bool)]
         attempt = [np.zeros(0, dtype=np.intp)]
-        for bindings in find_bindings(operator, attempts, most_unmet=_MOST_UNMET):
+        for bindings in find_bindings(operator, attempts, most_unmet=MOST_UNMET):
             unmet.append(bindings.met() != TRUE)
             attempt.append(bindings.attempt)
         sets, place = _different(np.vstack(unmet))

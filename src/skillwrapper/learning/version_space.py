@@ -15,15 +15,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.grounding import AtomSpace
+from skillwrapper.grounding import TRUE, AtomSpace
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.indexed_operators import IndexedOperator
+from skillwrapper.grounding.joins import find_bindings
 from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import attempts_of
-from skillwrapper.learning.unmet_conditions import UnmetConditions
+from skillwrapper.learning.unmet_conditions import MOST_UNMET, UnmetConditions
 from skillwrapper.learning.untested import narrowed_types
 from skillwrapper.symbols import Absence, Literal, Operator, Variable
+from skillwrapper.symbols.describe import describe_condition
 from skillwrapper.symbols.operators import Condition
 
 _ENUMERATED = 12
@@ -127,6 +129,25 @@ class VersionSpace:
         probability = np.append(unmet.excused(self.needed) @ self.weights, 0.0)
         found: NDArray[np.float64] = probability[unmet.family]
         return found
+
+    def doubts(self, space: AtomSpace, attempts: Attempts) -> tuple[float, list[str]]:
+        """How likely the operator applies to one attempt, and what it hangs on, in words.
+
+        That is, the conditions that are not met in the likeliest binding.
+        """
+        best: tuple[float, list[str]] = (0.0, [])
+        indexed = IndexedOperator(self.operator, space, self.narrowed)
+        for bindings in find_bindings(indexed, attempts, most_unmet=MOST_UNMET):
+            for unmet, objects in zip(bindings.met() != TRUE, bindings.objects, strict=True):
+                likely = float(self.weights[~(self.needed & unmet).any(axis=1)].sum())
+                if likely > best[0]:
+                    names = [space.objects[number].name for number in objects]
+                    named = dict(
+                        zip((v.name for v in self.operator.parameters), names, strict=True)
+                    )
+                    lacking = [c for c, x in zip(self.conditions, unmet, strict=True) if x]
+                    best = likely, [describe_condition(c, named) for c in lacking]
+        return best
 
 
 def version_spaces(

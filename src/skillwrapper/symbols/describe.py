@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 
 from skillwrapper.symbols.model import AbstractModel
-from skillwrapper.symbols.operators import Condition, Operator
+from skillwrapper.symbols.operators import Absence, Condition, Operator, Variable
 from skillwrapper.symbols.predicates import Literal, Predicate
 
 
@@ -38,6 +38,17 @@ def describe_operator(operator: Operator, untested: Collection[Condition] = ()) 
     if len(lines) == 1:
         lines.append("  needs and changes nothing")
     return "\n".join(lines)
+
+
+def describe_condition(condition: Condition, names: Mapping[str, str]) -> str:
+    """A condition with objects in the place of parameters, e.g. ``not holding(robot, patty)``."""
+    match condition:
+        case Literal():
+            return str(condition.substitute(names))
+        case Absence():
+            return str(Absence(condition.atom.substitute(names), condition.quantified))
+        case Variable():
+            return f"{names[condition.name]} to be {' and '.join(condition.types)}"
 
 
 def describe_model(model: AbstractModel) -> str:

@@ -1,0 +1,142 @@
+"""What the learned model lets expect of skill instances in states: how likely, and how new."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.exploration.novelty import Features, Novelty, see_features
+from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.grounding.abstract_states import AbstractStates
+from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.learning.predictions import attempts_of
+from skillwrapper.learning.version_space import VersionSpace, version_spaces
+from skillwrapper.world.skills import SkillInstance
+
+
+@dataclass(frozen=True, eq=False)
+class Expectations:
+    """Of skill instances in states, each (states, instances).
+
+    Attributes:
+        success: how likely the instance works.
+        alone: how new it is beside failures: something is seen that none of them saw, 0 to 1.
+        pairs: the same by pairs of what is seen.
+        alone_done: how new it is beside successes.
+        pairs_done: the same by pairs.
+    """
+
+    success: NDArray[np.float64]
+    alone: NDArray[np.float64]
+    pairs: NDArray[np.float64]
+    alone_done: NDArray[np.float64]
+    pairs_done: NDArray[np.float64]
+
+
+class SkillBeliefs:
+    """What is believed of one skill after one fit; remembers what it worked out.
+
+    Args:
+        fit: what was learned.
+        skill: name of the skill.
+        doubt: how likely a failure has a cause that no predicate speaks of.
+    """
+
+    def __init__(self, fit: Fit, skill: str, doubt: float) -> None:
+        self._types = fit.domain.types.names
+        self.of_skill: SkillFit = fit.skill(skill)
+        self.spaces: tuple[VersionSpace, ...] = version_spaces(fit, skill, doubt=doubt)
+        self._failures = self._seen(success=False)
+        self._successes = self._seen(success=True)
+        self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
+
+    def expect(
+        self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
+    ) -> NDArray[np.float64]:
+        """The figures of ``Expectations``, in its order (5, states, instances).
+
+        Args:
+            space: the ground atoms of the whole vocabulary in the scene.
+            states: abstract states (states, atoms).
+            instances: all instances of the skill in the scene.
+        """
+        keys = [(space, state.tobytes()) for state in states]
+        new = [row for row, key in enumerate(keys) if key not in self._known]
+        if new:
+            found = self._work_out(space, states[new], instances)
+            for place, row in enumerate(new):
+                self._known[keys[row]] = found[:, place]
+        return np.stack([self._known[key] for key in keys], axis=1)
+
+    def _work_out(
+        self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
+    ) -> NDArray[np.float64]:
+        arguments = np.array([space.index.numbers(i.arguments) for i in instances], dtype=np.intp)
+        arguments = arguments.reshape(len(instances), -1)
+        attempts = Attempts.everywhere(AbstractStates(states), arguments)
+        failing = np.ones(len(attempts))
+        for version_space in self.spaces:
+            failing *= 1 - version_space.success_probability(space, attempts)
+        figures = [1 - failing, *self._novelty(space, states, attempts)]
+        return np.stack(figures).reshape(5, len(states), len(instances))
+
+    def _novelty(
+        self, space: AtomSpace, states: Labels, attempts: Attempts
+    ) -> list[NDArray[np.float64]]:
+        """Beside failures and beside successes; all is new beside nothing."""
+        if not self.of_skill.predictions:
+            return [np.ones(len(attempts))] * 4
+        useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
+        columns = [space.column[atom] for atom in useful.atoms]
+        looked_up = AbstractStates(states[:, columns])
+        useful_attempts = Attempts(looked_up, attempts.arguments, attempts.rows, attempts.which)
+        seen = see_features(useful, useful_attempts, self._types)
+        figures = []
+        for earlier in (self._failures, self._successes):
+            novelty = Novelty.of(seen, earlier)
+            figures += [novelty.alone, novelty.pairs]
+        return figures
+
+    def _seen(self, *, success: bool) -> Features:
+        """What earlier attempts saw (attempts, features)."""
+        found = []
+        for prediction in self.of_skill.predictions:
+            table = prediction.table
+            attempts = attempts_of(table, np.flatnonzero(table.success == success))
+            found.append(see_features(table.space, attempts, self._types))
+        return np.vstack(found) if found else np.zeros((0, 0), dtype=bool)
+
+
+class Beliefs:
+    """What is believed of all skills; what did not change is not worked out again."""
+
+    def __init__(self) -> None:
+        self._skills: dict[str, tuple[object, SkillBeliefs]] = {}
+
+    def of_skill(self, fit: Fit, skill: str, doubt: float) -> SkillBeliefs:
+        """What is believed of a skill."""
+        key = (id(fit.skill(skill)), fit.predicates, doubt)
+        if skill not in self._skills or self._skills[skill][0] != key:
+            self._skills[skill] = (key, SkillBeliefs(fit, skill, doubt))
+        return self._skills[skill][1]
+
+    def expect(
+        self,
+        fit: Fit,
+        space: AtomSpace,
+        states: Labels,
+        instances: tuple[SkillInstance, ...],
+        doubt: float,
+    ) -> Expectations:
+        """What to expect of all instances of a scene in some states (states, atoms)."""
+        figures = np.zeros((5, len(states), len(instances)))
+        for skill in fit.domain.skills:
+            numbers = [n for n, i in enumerate(instances) if i.skill == skill.name]
+            if numbers:
+                own = [instances[n] for n in numbers]
+                beliefs = self.of_skill(fit, skill.name, doubt)
+                figures[:, :, numbers] = beliefs.expect(space, states, own)
+        return Expectations(*figures)

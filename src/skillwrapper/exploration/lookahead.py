@@ -1,0 +1,120 @@
+"""What is within reach: states to which skills lead that surely work, as far as the model knows."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.exploration.roles import Roles, SceneRoles
+from skillwrapper.grounding import Labels
+from skillwrapper.grounding.search import StateGraph
+
+
+@dataclass(frozen=True, eq=False)
+class Lookahead:
+    """Nodes within reach, the present one first; a node is a state and the roles of its objects.
+
+    Attributes:
+        states: the different abstract states (states, atoms).
+        state: the state (nodes,) of every node.
+        roles: the roles of the objects (nodes, objects).
+        depth: how many skills lead there (nodes,).
+        parent: the node before (nodes,); -1 for the first one.
+        step: the number of the skill instance that leads there (nodes,); -1 for the first one.
+        sure: whether an instance surely applies (states, instances).
+    """
+
+    states: Labels
+    state: NDArray[np.intp]
+    roles: Roles
+    depth: NDArray[np.intp]
+    parent: NDArray[np.intp]
+    step: NDArray[np.intp]
+    sure: NDArray[np.bool_]
+
+    def path(self, node: int) -> list[int]:
+        """The numbers of the skill instances that lead to a node."""
+        path: list[int] = []
+        while node > 0:
+            path.append(int(self.step[node]))
+            node = int(self.parent[node])
+        return path[::-1]
+
+
+def look_ahead(
+    graph: StateGraph,
+    start: Labels,
+    roles: Roles,
+    scene: SceneRoles,
+    *,
+    depth: int,
+    most: int,
+    blocked: Collection[int] = (),
+) -> Lookahead:
+    """Search breadth-first.
+
+    Args:
+        graph: the states of the model.
+        start: abstract state (atoms,) now.
+        roles: the roles of the objects (objects,) now.
+        scene: the skill instances.
+        depth: at most so many skills are looked ahead.
+        most: nodes are only added while there are fewer than so many.
+        blocked: numbers of instances that are no way from here, whatever the model says.
+    """
+    nodes = [(graph.add(start), roles)]
+    known = {(nodes[0][0], roles.tobytes())}
+    parent, step, distance = [-1], [-1], [0]
+    layer = [0]
+    for deep in range(1, depth + 1):
+        after: list[int] = []
+        for node, state, number in _steps(graph, [nodes[n][0] for n in layer], layer, scene):
+            if node == 0 and number in blocked:
+                continue
+            then = scene.after(nodes[node][1], number)
+            key = (state, then.tobytes())
+            if key not in known and len(nodes) < most:
+                known.add(key)
+                after.append(len(nodes))
+                nodes.append((state, then))
+                parent.append(node)
+                step.append(number)
+                distance.append(deep)
+        layer = after
+        if not layer:
+            break
+    numbers, state_of = np.unique([state for state, _ in nodes], return_inverse=True)
+    return Lookahead(
+        graph.states(numbers.tolist()),
+        state_of.ravel(),
+        np.array([then for _, then in nodes], dtype=np.intp),
+        np.array(distance, dtype=np.intp),
+        np.array(parent, dtype=np.intp),
+        np.array(step, dtype=np.intp),
+        _sure(graph, numbers.tolist(), scene),
+    )
+
+
+def _steps(
+    graph: StateGraph, states: Sequence[int], nodes: Sequence[int], scene: SceneRoles
+) -> list[tuple[int, int, int]]:
+    """Node, state after and instance, of the first operator of every instance that applies."""
+    found: dict[int, dict[int, int]] = {}
+    for state, edge in graph.edges(list(dict.fromkeys(states))):
+        found.setdefault(state, {}).setdefault(scene.number[edge.instance], edge.after)
+    return [
+        (node, after, number)
+        for node, state in zip(nodes, states, strict=True)
+        for number, after in sorted(found.get(state, {}).items())
+    ]
+
+
+def _sure(graph: StateGraph, states: list[int], scene: SceneRoles) -> NDArray[np.bool_]:
+    sure = np.zeros((len(states), len(scene.instances)), dtype=bool)
+    row = {state: number for number, state in enumerate(states)}
+    for state, edge in graph.edges(states):
+        sure[row[state], scene.number[edge.instance]] = True
+    return sure

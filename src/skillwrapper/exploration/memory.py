@@ -1,0 +1,130 @@
+"""What exploration remembers of its own attempts, beyond their labels."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.exploration.roles import RoleNumbers, Roles, SceneRoles
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.episode import Transition
+from skillwrapper.world.scenes import Scene
+from skillwrapper.world.skills import SkillInstance
+
+_FADING = 0.8
+"""What is left of a surprise after the next attempt of its kind."""
+
+Signature = tuple[int, ...]
+"""The roles of a skill instance's arguments."""
+
+
+class Surprises:
+    """How often predictions were wrong of late; starts with one surprise in two."""
+
+    def __init__(self) -> None:
+        self._wrong = {True: 1.0, False: 1.0}
+        self._all = {True: 2.0, False: 2.0}
+
+    def note(self, *, predicted: bool, success: bool) -> None:
+        """Take note of an attempt that was, or was not, predicted to succeed."""
+        self._wrong[predicted] = self._wrong[predicted] * _FADING + (predicted != success)
+        self._all[predicted] = self._all[predicted] * _FADING + 1
+
+    def rate(self, *, predicted: bool) -> float:
+        """The share of wrong predictions, 0 to 0.5."""
+        return min(0.5, (self._wrong[predicted] + 0.1) / (self._all[predicted] + 0.2))
+
+    @property
+    def doubt(self) -> float:
+        """How likely a failure has a cause that no predicate speaks of yet, in a few steps."""
+        rate = 0.6 * self._wrong[True] / (self._all[True] + 1)
+        return min((0.01, 0.03, 0.1, 0.3), key=lambda step: abs(np.log(step / max(rate, 1e-3))))
+
+
+class Memory:
+    """Remembers every attempt by the roles that its arguments had.
+
+    Args:
+        domain: types and skills.
+
+    Attributes:
+        roles: the present roles of the scene's objects (objects,).
+        signatures: of every attempt so far, in order of time.
+        seen: the signatures that were tried, by skill.
+        surprises: how often predictions were wrong.
+        pursued: how often a cause was gone after, by skill and signature.
+    """
+
+    def __init__(self, domain: Domain) -> None:
+        self._domain = domain
+        self._numbers = RoleNumbers()
+        self._scenes: dict[Scene, SceneRoles] = {}
+        self._failed: dict[str, set[tuple[int, int]]] = defaultdict(set)
+        self._tried: dict[tuple[str, SkillInstance], bool] = {}
+        self.roles: Roles = np.zeros(0, dtype=np.intp)
+        self.signatures: list[Signature] = []
+        self.seen: dict[str, set[Signature]] = defaultdict(set)
+        self.surprises = Surprises()
+        self.pursued: Counter[tuple[str, Signature]] = Counter()
+
+    def scene(self, scene: Scene) -> SceneRoles:
+        """The roles that objects of a scene can play."""
+        if scene not in self._scenes:
+            self._scenes[scene] = SceneRoles(self._domain, scene, self._numbers)
+        return self._scenes[scene]
+
+    def start(self, scene: Scene) -> None:
+        """Begin an episode: nothing was done yet with any object."""
+        self.roles = self.scene(scene).at_start
+
+    def note(self, scene: Scene, transition: Transition, *, predicted: bool | None) -> None:
+        """Take note of an attempt.
+
+        Args:
+            scene: where it was made.
+            transition: what came of it.
+            predicted: whether it was predicted to succeed, where that is known.
+        """
+        own, instance = self.scene(scene), transition.instance
+        number = own.number[instance]
+        signature = own.signature(self.roles, number)
+        self.signatures.append(signature)
+        self.seen[instance.skill].add(signature)
+        self._tried[transition.before.key, instance] = transition.success
+        if predicted is not None:
+            self.surprises.note(predicted=predicted, success=transition.success)
+        if transition.success:
+            self.roles = own.after(self.roles, number)
+        else:
+            self._failed[instance.skill] |= set(enumerate(signature))
+
+    def was_tried(self, observation: str, instance: SkillInstance) -> bool:
+        """Whether an instance was run where the same was seen, by the observation's key."""
+        return (observation, instance) in self._tried
+
+    def has_failed(self, observation: str, instance: SkillInstance) -> bool:
+        """Whether an instance failed the last time that the same was seen."""
+        return not self._tried.get((observation, instance), True)
+
+    def new_signatures(
+        self, skill: str, roles: Roles, places: NDArray[np.intp]
+    ) -> NDArray[np.bool_]:
+        """Whether the skill was never tried with such roles of its arguments (nodes,)."""
+        different, place = np.unique(roles[:, places], axis=0, return_inverse=True)
+        new = np.array([tuple(row) not in self.seen[skill] for row in different.tolist()])
+        return new[place.ravel()]
+
+    def new_roles(self, skill: str, roles: Roles, places: NDArray[np.intp]) -> NDArray[np.float64]:
+        """How new the roles of some argument are beside the skill's failures (nodes,), 0 to 1.
+
+        A role that differs from a known one in the types of the others alone is less new.
+        """
+        kinds, newest = self._numbers.kinds, np.zeros(len(roles))
+        for position, place in enumerate(places.tolist()):
+            failed = [role for at, role in self._failed[skill] if at == position]
+            known = np.isin(roles[:, place], failed)
+            similar = np.isin(kinds[roles[:, place]], kinds[failed] if failed else [])
+            newest = np.maximum(newest, np.where(known, 0.0, np.where(similar, 0.6, 1.0)))
+        return newest

@@ -1,0 +1,80 @@
+"""How new an attempt is: what is seen from a skill instance, beside what earlier attempts saw."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.grounding import TRUE, AtomSpace
+from skillwrapper.grounding.atom_index import ANY, LiftedAtom, taken_objects
+from skillwrapper.grounding.bindings import Attempts
+from skillwrapper.symbols import Predicate
+
+Features = NDArray[np.bool_]
+"""What holds, seen from the skill instance of an attempt (attempts, features)."""
+
+
+def see_features(space: AtomSpace, attempts: Attempts, types: Sequence[str]) -> Features:
+    """Literals over the arguments, what stands in relations to them, and their types.
+
+    Args:
+        space: the ground atoms; the same predicates give the same features in every scene.
+        attempts: attempts at one skill.
+        types: all types that tell objects apart.
+    """
+    index, arguments = space.index, attempts.arguments
+    arity = arguments.shape[1]
+    of_type = np.array([index.of_types([name]) for name in types], dtype=bool)
+    of_type = of_type.reshape(len(types), len(space.objects))
+    plain = index.columns(index.patterns(_plain(space.predicates, arity), arity), arguments)
+    opened = index.open_columns(index.patterns(_open(space.predicates, arity), arity), arguments)
+    others = ~taken_objects(arguments, len(space.objects))
+    opened = np.where(others[:, np.newaxis, :], opened, -1)
+    which = attempts.which
+    holds = attempts.states.at(attempts.rows, plain[which]) == TRUE
+    related = attempts.states.at(attempts.rows, opened[which]) == TRUE
+    by_type = related.astype(np.float32) @ of_type.T.astype(np.float32) > 0
+    seen = np.hstack([holds, by_type.reshape(len(holds), by_type.shape[1] * len(types))])
+    own_types = of_type.T[arguments].reshape(len(arguments), arity * len(types))
+    return np.hstack([seen, ~seen, own_types[which]])
+
+
+def _plain(predicates: Sequence[Predicate], arity: int) -> Iterator[LiftedAtom]:
+    for predicate in predicates:
+        for terms in itertools.permutations(range(arity), predicate.arity):
+            yield predicate.name, terms
+
+
+def _open(predicates: Sequence[Predicate], arity: int) -> Iterator[LiftedAtom]:
+    for predicate in predicates:
+        for place in range(predicate.arity if predicate.arity > 1 else 0):
+            for terms in itertools.permutations(range(arity), predicate.arity - 1):
+                yield predicate.name, (*terms[:place], ANY, *terms[place:])
+
+
+@dataclass(frozen=True, eq=False)
+class Novelty:
+    """How new attempts are.
+
+    Attributes:
+        alone: whether something is seen that was never seen, 1, or almost, 0.5 (attempts,).
+        pairs: the share of pairs of what is seen that were never seen together (attempts,).
+    """
+
+    alone: NDArray[np.float64]
+    pairs: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, seen: Features, earlier: Features) -> Novelty:
+        """Beside earlier attempts, of which there may be none."""
+        different, place = np.unique(seen, axis=0, return_inverse=True)
+        rows, before = different.astype(np.float32), earlier.astype(np.float32)
+        unseen = (before.T @ before == 0).astype(np.float32)
+        alone = np.clip(rows @ np.diag(unseen) / 2, 0, 1)
+        total = np.maximum(rows.sum(axis=1) ** 2, 1)
+        pairs = ((rows @ unseen) * rows).sum(axis=1) / total
+        return cls(alone[place.ravel()], pairs[place.ravel()])

@@ -1,0 +1,154 @@
+"""What an attempt is worth: the information that can be expected of it, node by node."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from skillwrapper.exploration.beliefs import Expectations
+from skillwrapper.exploration.lookahead import Lookahead
+from skillwrapper.exploration.memory import Memory
+from skillwrapper.exploration.roles import SceneRoles
+from skillwrapper.learning.inconsistencies import Inconsistency
+
+Values = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What counts how much; starting points, chosen on the burger kitchen (docs/semantics.md D16).
+
+    Attributes:
+        unproven: newness of an attempt at a skill that never succeeded.
+        failing: newness where the model predicts a failure, times the entropy of how often that
+            was wrong of late.
+        least_failing: the least of that product.
+        working: newness where the model predicts a success, times the like entropy.
+        covered: a combination of roles that was never tried, where success is predicted.
+        covered_failing: the same where it is not.
+        witness: an attempt like one that the model cannot explain.
+        other_witness: an attempt at the same skill, as a share of that.
+        fading: what is left of it after every time that it was gone after.
+    """
+
+    unproven: float = 1.5
+    failing: float = 0.4
+    least_failing: float = 0.05
+    working: float = 0.5
+    covered: float = 0.3
+    covered_failing: float = 0.08
+    witness: float = 0.8
+    other_witness: float = 0.15
+    fading: float = 0.75
+
+
+@dataclass(frozen=True, eq=False)
+class Worth:
+    """What attempts are worth, by what they would be for; each (nodes, instances).
+
+    Attributes:
+        test: whether a condition is needed.
+        new: what may be found where nothing is known.
+        check: whether the model is right where it is sure.
+        cover: combinations of skills that were not tried.
+        witness: what the model cannot explain, seen again.
+    """
+
+    test: Values
+    new: Values
+    check: Values
+    cover: Values
+    witness: Values
+
+    @property
+    def total(self) -> Values:
+        """All together."""
+        return self.test + self.new + self.check + self.cover + self.witness
+
+    def main_part(self, node: int, instance: int) -> str:
+        """What an attempt would be for most of all."""
+        return max(vars(self), key=lambda name: float(vars(self)[name][node, instance]))
+
+
+def entropy(probability: NDArray[np.float64] | float) -> Values:
+    """Of a coin (...), in bits."""
+    p = np.clip(probability, 1e-12, 1 - 1e-12)
+    bits: Values = -(p * np.log2(p) + (1 - p) * np.log2(1 - p))
+    return bits
+
+
+def weigh(
+    lookahead: Lookahead,
+    expected: Expectations,
+    scene: SceneRoles,
+    memory: Memory,
+    *,
+    unproven: frozenset[str],
+    causes: Sequence[Inconsistency],
+    weights: Weights,
+) -> Worth:
+    """Weigh every skill instance in every node.
+
+    Args:
+        lookahead: the nodes.
+        expected: of all instances in the nodes' states.
+        scene: the instances.
+        memory: earlier attempts.
+        unproven: skills that never succeeded.
+        causes: what the model cannot explain, one inconsistency for each cause.
+        weights: what counts how much.
+    """
+    of_node = lookahead.state
+    sure, success = lookahead.sure[of_node], expected.success[of_node]
+    failures, successes = (
+        memory.surprises.rate(predicted=False),
+        memory.surprises.rate(predicted=True),
+    )
+    failing = max(weights.least_failing, weights.failing * float(entropy(failures)))
+    working = weights.working * float(entropy(successes))
+    mix = 0.5 * expected.alone[of_node] + 0.5 * np.sqrt(expected.pairs[of_node])
+    mix_done = 0.5 * expected.alone_done[of_node] + 0.5 * np.sqrt(expected.pairs_done[of_node])
+    new, cover = np.where(sure, 0.0, failing * mix), np.zeros_like(mix)
+    for number, instance in enumerate(scene.instances):
+        places = scene.places[number]
+        if instance.skill in unproven:
+            alone = memory.new_roles(instance.skill, lookahead.roles, places)
+            alone = np.maximum(alone, expected.alone[of_node, number])
+            pairs = np.sqrt(expected.pairs[of_node, number])
+            new[:, number] = weights.unproven * (0.7 * alone + 0.3 * pairs)
+        unseen = memory.new_signatures(instance.skill, lookahead.roles, places)
+        each = np.where(sure[:, number], weights.covered, weights.covered_failing)
+        cover[:, number] = each * unseen
+    return Worth(
+        test=np.where(sure, 0.0, entropy(success) * np.sqrt(success)),
+        new=new,
+        check=np.where(sure, working * mix_done, 0.0),
+        cover=cover,
+        witness=_witnesses(lookahead, sure | (success > 0.02), scene, memory, causes, weights),
+    )
+
+
+def _witnesses(
+    lookahead: Lookahead,
+    possible: NDArray[np.bool_],
+    scene: SceneRoles,
+    memory: Memory,
+    causes: Sequence[Inconsistency],
+    weights: Weights,
+) -> Values:
+    """Attempts like those that the model cannot explain, the less the more often repeated."""
+    found = np.zeros(possible.shape)
+    for cause in causes:
+        signature = memory.signatures[cause.culprit]
+        worth = weights.witness * weights.fading ** memory.pursued[cause.skill, signature]
+        for number, instance in enumerate(scene.instances):
+            if instance.skill == cause.skill:
+                roles = lookahead.roles[:, scene.places[number]]
+                same = (roles == np.array(signature, dtype=np.intp)).all(axis=1)
+                value = np.where(same, worth, weights.other_witness * worth)
+                better = np.maximum(found[:, number], value)
+                found[:, number] = np.where(possible[:, number], better, found[:, number])
+    return found
