@@ -73,7 +73,6 @@ def test_a_question_a_picture_about_all_that_is_missing_in_one_wave() -> None:
     truth, reader = table()
     truth.labels(AtomSpace((FULL, DARK), CUPS), [seen("a"), seen("b")])
     assert [asked(w) for w in reader.waves] == [[("a", ["full", "dark"]), ("b", ["full", "dark"])]]
-    assert truth.asked == 4
 
 
 class LidReader:
@@ -224,16 +223,6 @@ def test_shapes_of_nothing(predicates, pictures, shape) -> None:
     labels = truth.labels(AtomSpace(predicates, CUPS), [seen(p) for p in pictures])
     assert labels.shape == shape
     assert labels.dtype == np.int8
-
-
-def test_what_is_known_without_asking() -> None:
-    truth, reader = table()
-    space = AtomSpace((FULL, DARK), CUPS)
-    assert truth.known_labels(space, seen("full(red)")) == {}
-    truth.labels(AtomSpace((FULL,), CUPS), [seen("full(red)")])
-    known = truth.known_labels(space, seen("full(red)"))
-    assert known == {Atom("full", (c.name,)): int(c.name == "red") for c in CUPS}
-    assert len(reader.waves) == 1
 
 
 @QUICK

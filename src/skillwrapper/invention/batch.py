@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.fitter import Fitter
-from skillwrapper.invention.inventor import CandidateDecision, Verdict
 from skillwrapper.invention.questions import BatchInventionQuestion, InventionAnswer
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import Fit
@@ -65,4 +65,4 @@ class BatchInventor:
         for predicate in self._vocabulary.fresh(self._adviser.invent_batch(question).predicates):
             self._vocabulary.accept(predicate)
             reason = "one of the batch"
-            self._listener(CandidateDecision(Verdict.ACCEPTED, predicate, None, None, reason))
+            self._listener(CandidateDecision(Verdict.ACCEPTED, predicate, reason))

@@ -56,6 +56,7 @@ class Labeller:
             self._labelled.clear()
         chosen = tuple(predicates)
         if chosen not in self._labelled:
+            self._announce(chosen)
             scenes = tuple(
                 SceneTransitions(self.recorded.executions(s), self._labels(s, chosen))
                 for s in self.recorded.scenes
@@ -71,15 +72,26 @@ class Labeller:
         shape = (len(self.recorded.observations(scene)), 0)
         return np.hstack([x.values for x in labels]) if labels else np.zeros(shape, dtype=np.int8)
 
+    def _announce(self, predicates: Sequence[Predicate]) -> None:
+        """Have the pictures of all scenes read together."""
+        missing = [(scene, self._missing(scene, predicates)) for scene in self.recorded.scenes]
+        self.truth.prefetch(
+            (AtomSpace(unread, scene.objects), self.recorded.observations(scene))
+            for scene, unread in missing
+            if unread
+        )
+
     def _labels(self, scene: Scene, predicates: Sequence[Predicate]) -> tuple[PredicateLabels, ...]:
-        observations = self.recorded.observations(scene)
-        missing = [p for p in predicates if not self._is_read(scene, p, len(observations))]
+        missing = self._missing(scene, predicates)
         if missing:
-            space = AtomSpace(tuple(missing), scene.objects)
-            for labels in split_labels(space, self.truth.labels(space, observations)):
+            space = AtomSpace(missing, scene.objects)
+            values = self.truth.labels(space, self.recorded.observations(scene))
+            for labels in split_labels(space, values):
                 self._read[scene, labels.predicate] = labels
         return tuple(self._read[scene, p] for p in predicates)
 
-    def _is_read(self, scene: Scene, predicate: Predicate, observations: int) -> bool:
-        known = self._read.get((scene, predicate))
-        return known is not None and len(known.values) == observations
+    def _missing(self, scene: Scene, predicates: Sequence[Predicate]) -> tuple[Predicate, ...]:
+        """The predicates that are not read in all pictures of a scene."""
+        number = len(self.recorded.observations(scene))
+        known = ((p, self._read.get((scene, p))) for p in predicates)
+        return tuple(p for p, labels in known if labels is None or len(labels.values) != number)

@@ -32,7 +32,6 @@ class TruthTable:
     questions of a call are independent and go out together.
 
     Attributes:
-        asked: how many (observation, predicate) pairs were asked for.
         question_sizes: how many questions were asked with so many groundings.
     """
 
@@ -41,7 +40,6 @@ class TruthTable:
         self._reader = reader
         self._labels: dict[tuple[tuple[Object, ...], Predicate], dict[str, Labels]] = {}
         self._agreement: dict[Predicate, list[float]] = {}
-        self.asked = 0
         self.question_sizes: Counter[int] = Counter()
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
@@ -75,16 +73,6 @@ class TruthTable:
         shape = (len(observations), len(space.atoms))
         return np.hstack(columns) if columns and observations else np.zeros(shape, dtype=np.int8)
 
-    def known_labels(self, space: AtomSpace, observation: Observation) -> dict[Atom, int]:
-        """What is known of an observation, for reports; asks nothing."""
-        found: dict[Atom, int] = {}
-        for predicate in space.predicates:
-            row = self._known(space.objects, predicate).get(observation.key)
-            if row is not None:
-                values = zip(predicate.groundings(space.objects), row, strict=True)
-                found.update((atom, int(value)) for atom, value in values)
-        return found
-
     def agreement(self, predicate: Predicate) -> float | None:
         """The share of votes for the label, on average over all labels read of a predicate.
 
@@ -114,7 +102,6 @@ class TruthTable:
         questions = [part for question in wanted for part in _without_namesakes(question)]
         if not questions:
             return
-        self.asked += sum(len(q.predicates) for q in questions)
         answers = self._reader.evaluate(questions)
         for question, answer in zip(questions, answers, strict=True):
             groundings = 0

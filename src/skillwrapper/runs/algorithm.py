@@ -17,8 +17,9 @@ from skillwrapper.exploration.explorers import NextSkill, Situation, make_explor
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.invention.batch import BatchAdviser, BatchInventor
 from skillwrapper.invention.convergence import Convergence
+from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.fitter import Fitter
-from skillwrapper.invention.inventor import CandidateDecision, Inventor, Verdict
+from skillwrapper.invention.inventor import Inventor
 from skillwrapper.invention.proposer import Adviser, ModelProposer
 from skillwrapper.invention.pruning import prune
 from skillwrapper.invention.vocabulary import Vocabulary

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from skillwrapper.invention.inventor import CandidateDecision
+from skillwrapper.invention.decisions import CandidateDecision
 from skillwrapper.invention.pruning import Pruned
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.symbols import Predicate

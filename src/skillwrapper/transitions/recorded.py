@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,6 +68,10 @@ class RecordedTransitions:
     def scenes(self) -> tuple[Scene, ...]:
         """The scenes, in the order of their first episode."""
         return tuple(self._observations)
+
+    def count_by_skill(self) -> Counter[str]:
+        """How often each skill was run."""
+        return Counter(record.transition.instance.skill for record in self.records)
 
     def observations(self, scene: Scene) -> tuple[Observation, ...]:
         """The different observations of a scene, in order of time."""
