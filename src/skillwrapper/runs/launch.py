@@ -25,13 +25,14 @@ from skillwrapper.runs.settings import RunSettings
 from skillwrapper.runs.settings_layers import SettingsLayers
 from skillwrapper.vlm.protocol import VisionLanguageModel
 from skillwrapper.world.environment import Environment
+from skillwrapper.world.robot import Robot, RobotEnvironment
 
 
 def learn(
     settings: RunSettings | Mapping[str, Any],
     out: Path | str | None = None,
     *,
-    environment: Environment | None = None,
+    environment: Environment | Robot | None = None,
     model: VisionLanguageModel | None = None,
     observers: Sequence[Observer] = (),
 ) -> LearningResult:
@@ -42,8 +43,8 @@ def learn(
             settings with dots: ``{"domain": "burger", "learning.attempts": 5}``.
         out: the folder of the run; one that holds a run with the same settings is resumed. None
             keeps nothing but the result.
-        environment: the robot or simulator; None for that of the domain that the settings name.
-            One that is given stays open.
+        environment: the robot or simulator; a ``Robot`` works in the domain that the settings
+            name. None for the robot of that domain. One that is given stays open.
         model: answers every role in place of the models that the settings name.
         observers: told of every event, in order.
 
@@ -55,6 +56,8 @@ def learn(
         LimitReachedError: if a limit of the user's is reached; the run can be resumed.
     """
     chosen = _settings(settings, environment)
+    if isinstance(environment, Robot):
+        environment = RobotEnvironment(environment, find_domain(chosen.domain).domain)
     if model is None:
         check_models(chosen)  # first: a mistake in a name or a key leaves no folder behind
     with _environment(chosen, environment) as world:
@@ -104,17 +107,17 @@ def _run(
 
 
 def _settings(
-    settings: RunSettings | Mapping[str, Any], environment: Environment | None
+    settings: RunSettings | Mapping[str, Any], environment: Environment | Robot | None
 ) -> RunSettings:
     """The settings with their domain as it is found again from anywhere."""
     if not isinstance(settings, RunSettings):
         layers = SettingsLayers(RunSettings)
-        if environment is not None:
+        if environment is not None and not isinstance(environment, Robot):
             layers.add("domain", environment.domain.name, "domain")
         for name, value in settings.items():
             layers.add_any(name, value)
         settings = layers.build()
-    if environment is not None:
+    if environment is not None and not isinstance(environment, Robot):
         return settings
     return settings.model_copy(update={"domain": find_domain(settings.domain).reference})
 
