@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.exploration.roles import RoleNumbers, Roles, SceneRoles
+from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.scenes import Scene
@@ -112,9 +113,10 @@ class Memory:
         self, skill: str, roles: Roles, places: NDArray[np.intp]
     ) -> NDArray[np.bool_]:
         """Whether the skill was never tried with such roles of its arguments (nodes,)."""
-        different, place = np.unique(roles[:, places], axis=0, return_inverse=True)
-        new = np.array([tuple(row) not in self.seen[skill] for row in different.tolist()])
-        return new[place.ravel()]
+        first, place = different_rows(roles[:, places])
+        different = roles[np.ix_(first, places)].tolist()
+        new = np.array([tuple(row) not in self.seen[skill] for row in different], dtype=bool)
+        return new[place]
 
     def new_roles(self, skill: str, roles: Roles, places: NDArray[np.intp]) -> NDArray[np.float64]:
         """How new the roles of some argument are beside the skill's failures (nodes,), 0 to 1.

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.grounding import TRUE, AtomSpace
+from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.grounding.atom_index import ANY, LiftedAtom, taken_objects
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.symbols import Predicate
@@ -71,10 +72,10 @@ class Novelty:
     @classmethod
     def of(cls, seen: Features, earlier: Features) -> Novelty:
         """Beside earlier attempts, of which there may be none."""
-        different, place = np.unique(seen, axis=0, return_inverse=True)
-        rows, before = different.astype(np.float32), earlier.astype(np.float32)
+        first, place = different_rows(seen)
+        rows, before = seen[first].astype(np.float32), earlier.astype(np.float32)
         unseen = (before.T @ before == 0).astype(np.float32)
         alone = np.clip(rows @ np.diag(unseen) / 2, 0, 1)
         total = np.maximum(rows.sum(axis=1) ** 2, 1)
         pairs = ((rows @ unseen) * rows).sum(axis=1) / total
-        return cls(alone[place.ravel()], pairs[place.ravel()])
+        return cls(alone[place], pairs[place])

@@ -126,7 +126,7 @@ class PlannedExplorer:
         key = (situation.space, operators)
         if self._graph is None or self._graph[0] != key:
             model = GroundModel.from_operators(operators, situation.space)
-            self._graph = key, StateGraph(model, self._settings.nodes)
+            self._graph = key, StateGraph(model, self._settings.weighed)
         seen = situation.observation.key
         return look_ahead(
             self._graph[1],
@@ -134,7 +134,7 @@ class PlannedExplorer:
             self._memory.roles,
             scene,
             depth=min(self._settings.lookahead, situation.left - 1),
-            most=self._settings.nodes,
+            most=max(1, self._settings.weighed // max(1, len(scene.instances))),
             blocked=[n for n, i in enumerate(scene.instances) if self._memory.has_failed(seen, i)],
         )
 

@@ -23,12 +23,12 @@ class ExplorationSettings(BaseModel):
         description="planned looks at most so many skills ahead",
         json_schema_extra={"unit": "skills"},
     )
-    nodes: int = Field(
-        default=1500,
+    weighed: int = Field(
+        default=40_000,
         ge=1,
-        description="planned looks at most at so many states with what was done in them; bounds "
-        "the time that a choice takes",
-        json_schema_extra={"unit": "states"},
+        description="planned weighs at most so many attempts in one choice, a skill instance in "
+        "a state each; bounds the time that it takes",
+        json_schema_extra={"unit": "attempts"},
     )
     budget: int = Field(
         default=15,

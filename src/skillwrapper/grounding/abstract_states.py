@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,3 +37,20 @@ class AbstractStates:
         # Column -1 falls on the padding at the end of the row before; of the first, of the last.
         found: Labels = self._flat.take(first + columns)
         return found
+
+
+def different_rows(rows: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Places of the different rows (n, ...), in the order of their first occurrence.
+
+    Returns:
+        The place of each among all, and the place (n,) of every row among the different ones.
+    """
+    flat = np.ascontiguousarray(rows.reshape(len(rows), int(np.prod(rows.shape[1:]))))
+    flat = np.packbits(flat, axis=1) if flat.dtype == np.bool_ else flat
+    text, width = flat.tobytes(), flat.shape[1] * flat.itemsize
+    number: dict[bytes, int] = {}
+    keys = (text[row * width : (row + 1) * width] for row in range(len(flat)))
+    place = np.array([number.setdefault(key, len(number)) for key in keys], dtype=np.intp)
+    first = np.full(len(number), len(flat), dtype=np.intp)
+    np.minimum.at(first, place, np.arange(len(flat)))
+    return first, place

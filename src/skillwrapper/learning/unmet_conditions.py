@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.grounding import TRUE
+from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.indexed_operators import IndexedOperator
 from skillwrapper.grounding.joins import find_bindings
@@ -40,17 +40,18 @@ class UnmetConditions:
         for bindings in find_bindings(operator, attempts, most_unmet=MOST_UNMET):
             unmet.append(bindings.met() != TRUE)
             attempt.append(bindings.attempt)
-        sets, place = _different(np.vstack(unmet))
-        pairs, _ = _different(np.column_stack([np.concatenate(attempt), place]))
-        family = np.full(len(attempts), -1, dtype=np.intp)
-        members = np.full((len(attempts), 1), -1, dtype=np.intp)
-        if len(pairs):
-            turn = np.arange(len(pairs)) - np.searchsorted(pairs[:, 0], pairs[:, 0])
-            members = np.full((len(attempts), int(turn.max()) + 1), -1, dtype=np.intp)
-            members[pairs[:, 0], turn] = pairs[:, 1]
+        rows, owner = np.vstack(unmet), np.concatenate(attempt)
+        first, place = different_rows(rows)
+        pairs = np.column_stack([owner, place])
+        pairs = pairs[np.sort(different_rows(pairs)[0])]
+        pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
+        turn = np.arange(len(pairs)) - np.searchsorted(pairs[:, 0], pairs[:, 0])
+        members = np.full((len(attempts), int(turn.max(initial=0)) + 1), -1, dtype=np.intp)
+        members[pairs[:, 0], turn] = pairs[:, 1]
         bound = members[:, 0] >= 0
-        families, family[bound] = _different(members[bound])
-        return cls(sets, families, family)
+        family = np.full(len(attempts), -1, dtype=np.intp)
+        one_each, family[bound] = different_rows(members[bound])
+        return cls(rows[first], members[bound][one_each], family)
 
     def excused(self, needed: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Whether some binding would apply (families, hypotheses).
@@ -64,11 +65,3 @@ class UnmetConditions:
         for column in self.families.T:
             found |= applies[column]  # place -1 is the last row, which never applies
         return found
-
-
-def _different(rows: NDArray[Any]) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Different rows, sorted, and the place (n,) of every row among them."""
-    if not rows.shape[1]:
-        return rows[:1], np.zeros(len(rows), dtype=np.intp)
-    found, place = np.unique(rows, axis=0, return_inverse=True)
-    return found, place.ravel()
