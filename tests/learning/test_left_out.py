@@ -76,3 +76,25 @@ def test_a_change_that_ranges_over_a_set_is_learned_from_one_transition() -> Non
     assert learned.operator.conditional_effects
     assert found.skill("Tip").left_out == ()
     assert certify(found).violations == ()
+
+
+def test_one_transition_asks_for_no_more_objects_than_allowed() -> None:
+    """Before a single transition everything in sight was always there.
+
+    Eight relations with a witness each were eight parameters, and telling whether each can have
+    an object of its own took the sets of all of them.
+    """
+    relations = tuple(Predicate(f"near_{n}", ("block", "block")) for n in range(7))
+    notebook = Notebook(BLOCKS, UP, *relations)
+    before = " ".join(f"near_{n}(b0, b{n + 1})" for n in range(7))
+    notebook.success(before, "Lift(b0)", f"{before} up(b0)")
+    notebook.failure("", "Lift(b0)")
+
+    def most(**settings: int) -> int:
+        learner = FaithfulLearner(LearnerSettings(**settings))
+        found = learner.learn(notebook.fitter().labeller.label(notebook.predicates))
+        return len(found.operators[0].operator.context)
+
+    assert most() == 4
+    assert most(existential_context=0) == 0
+    assert most(existential_context=7) == 7

@@ -1,1 +1,1 @@
-"""Learning: lifting, operators, inconsistencies, invention, pruning, certification, the loop."""
+"""Operators from labelled transitions: learners, predictions, certificate, untested conditions."""

@@ -54,13 +54,7 @@ def operator_of(
         between_context: whether it may speak of context objects alone (D5).
     """
     domain, skill, arity = language.domain, language.skill, language.arity
-    evidence = gather_evidence(
-        cluster.groups,
-        language.predicates,
-        arity,
-        between_context=between_context,
-        absences=language.settings.absences,
-    )
+    evidence = gather_evidence(cluster.groups, language, between_context=between_context)
     types = [frozenset.intersection(*map(frozenset, column)) for column in _slots(cluster.groups)]
     parameters = _name_parameters(domain, skill, types, evidence.existentials)
     names = [v.name for v in parameters]

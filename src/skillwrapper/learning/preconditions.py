@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from skillwrapper.grounding import FALSE, TRUE
 from skillwrapper.grounding.atom_index import ANY, LiftedAtom
 from skillwrapper.learning.clusters import Bundle, bundle_groups
+from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.tables import NO_LABEL, Group
 
@@ -59,32 +60,26 @@ class Evidence:
 
 
 def gather_evidence(
-    groups: Sequence[Group],
-    predicates: Sequence[Predicate],
-    arity: int,
-    *,
-    between_context: bool = False,
-    absences: bool = True,
+    groups: Sequence[Group], language: OperatorLanguage, *, between_context: bool = False
 ) -> Evidence:
     """What held before every transition of the groups of one cluster.
 
     Args:
         groups: groups of one cluster, at least one.
-        predicates: the vocabulary without tautologies.
-        arity: number of arguments of the skill.
+        language: what may be said of it.
         between_context: also literals between context objects (D5).
-        absences: whether universal absences are looked for (D2).
     """
+    predicates, arity, settings = language.predicates, language.arity, language.settings
     bundles = tuple(bundle_groups(groups))
     size = len(groups[0].lifting.objects)
     plain = tuple(_plain_patterns(predicates, arity, size, between_context))
     patterns = tuple(_open_patterns(predicates, arity))
     relations = [_Relations.of(bundle, patterns, size) for bundle in bundles]
-    absent = _never(relations) if absences else []
+    absent = _never(relations) if settings.absences else []
     return Evidence(
         _common_literals(bundles, plain, size),
         tuple(patterns[i] for i in absent),
-        _merge_existentials(bundles, patterns, relations),
+        _merge_existentials(bundles, patterns, relations, settings.existential_context),
     )
 
 
@@ -161,12 +156,16 @@ def _never(relations: Sequence[_Relations]) -> list[int]:
 
 
 def _merge_existentials(
-    bundles: Sequence[Bundle], patterns: Sequence[LiftedAtom], relations: Sequence[_Relations]
+    bundles: Sequence[Bundle],
+    patterns: Sequence[LiftedAtom],
+    relations: Sequence[_Relations],
+    most: int,
 ) -> tuple[ExistentialContext, ...]:
     """One context object for all patterns that one object can always meet together.
 
     Different context objects must be different (D4): a pattern for which no object of its own
-    is always there is left out.
+    is always there is left out. So is one that would take more objects than are allowed: before
+    a single transition everything in sight was always there.
     """
     merged: list[list[LiftedAtom]] = []
     contexts: list[_Witnesses] = []
@@ -179,7 +178,7 @@ def _merge_existentials(
                 contexts[number] = both
                 break
         else:
-            if _distinct(own, contexts):
+            if len(contexts) < most and _distinct(own, contexts):
                 merged.append([patterns[place]])
                 contexts.append(own)
     found = []

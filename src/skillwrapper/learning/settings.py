@@ -23,6 +23,13 @@ class LearnerSettings(BaseModel):
         "that is learned from a single transition (D23)",
         json_schema_extra={"unit": "objects"},
     )
+    existential_context: int = Field(
+        default=4,
+        ge=0,
+        description="how many objects an operator may ask for of which only its conditions speak "
+        "(D2)",
+        json_schema_extra={"unit": "objects"},
+    )
     least_confidence: float = Field(
         default=0.9,
         ge=0.5,

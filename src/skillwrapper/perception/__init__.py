@@ -1,1 +1,1 @@
-"""Perception: from pictures to a truth table of ground atoms."""
+"""From pictures to labels: what to ask, the truth table, labelled transitions."""

@@ -1,1 +1,1 @@
-"""Labelled transitions: what the learner learns from, as arrays."""
+"""Transitions: recorded with pictures, labelled as arrays (what learners learn from), lifted."""
