@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from skillwrapper.world.environment import Environment
     from skillwrapper.world.episode import Outcome
     from skillwrapper.world.robot import Robot, RobotEnvironment
+    from skillwrapper.world.simulator import Simulator
     from skillwrapper.world.skills import SkillInstance
 
 __version__ = "0.1.0"
@@ -41,6 +42,7 @@ __all__ = [
     "Robot",
     "RobotEnvironment",
     "RunSettings",
+    "Simulator",
     "SkillInstance",
     "SkillWrapperError",
     "__version__",
@@ -64,6 +66,7 @@ _HOMES: Final = {
     "Robot": "world.robot",
     "RobotEnvironment": "world.robot",
     "RunSettings": "runs.settings",
+    "Simulator": "world.simulator",
     "SkillInstance": "world.skills",
     "SkillWrapperError": "errors",
     "find_domain": "domains.discovery",

@@ -46,7 +46,7 @@ class Kitchen:
 
     def look(self, state: Any) -> Observation:
         if state not in self._looks:
-            self._looks[state] = self.environment.observe_state(state)
+            self._looks[state] = self.environment.set_state(state)
         return self._looks[state]
 
     def graph(self, state: Any) -> SceneGraph:

@@ -8,14 +8,14 @@ from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
-from skillwrapper.world import Observation, Picture
+from skillwrapper.world import Picture
 
 
 class SketchedKitchen(BurgerEnvironment):
     """Draws a state by writing it down."""
 
-    def observe_state(self, state: BurgerState) -> Observation:
-        return Observation((Picture(repr(state).encode()),))
+    def draw(self, state: BurgerState, layout: int) -> Picture:
+        return Picture(repr(state).encode())
 
 
 @cache

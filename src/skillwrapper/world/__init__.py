@@ -15,6 +15,7 @@ from skillwrapper.world.observation import Observation, Picture
 from skillwrapper.world.pictures import encode_png, load_picture, observation_of
 from skillwrapper.world.robot import Robot, RobotEnvironment
 from skillwrapper.world.scenes import Scene
+from skillwrapper.world.simulator import Simulator
 from skillwrapper.world.skills import Parameter, Skill, SkillInstance, ground_skills
 from skillwrapper.world.types import Object, TypeHierarchy
 
@@ -35,6 +36,7 @@ __all__ = [
     "Scene",
     "Settable",
     "Simulable",
+    "Simulator",
     "Skill",
     "SkillInstance",
     "Transition",

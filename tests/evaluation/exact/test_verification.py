@@ -25,8 +25,8 @@ from skillwrapper.world import Observation, Picture
 class SketchedKitchen(BurgerEnvironment):
     """Draws a state by writing it down: drawing all states in colour takes too long here."""
 
-    def observe_state(self, state: BurgerState) -> Observation:
-        return Observation((Picture(repr(state).encode()),))
+    def draw(self, state: BurgerState, layout: int) -> Picture:
+        return Picture(repr(state).encode())
 
 
 @cache

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Sequence
 from dataclasses import replace
 
 from skillwrapper.domains.burger.states import HAND, BurgerState
@@ -41,21 +39,6 @@ def effect(state: BurgerState, instance: SkillInstance) -> BurgerState:
         case "Cook", _:
             return replace(state, cooked=True)
     raise InternalError(f"the burger kitchen has no rule for {instance}; please report it")
-
-
-def reachable(start: BurgerState, instances: Sequence[SkillInstance]) -> tuple[BurgerState, ...]:
-    """All states reachable from a state, in breadth-first order, that one first."""
-    found = {start: None}
-    waiting = deque([start])
-    while waiting:
-        state = waiting.popleft()
-        for instance in instances:
-            if obstacle(state, instance) is None:
-                following = effect(state, instance)
-                if following not in found:
-                    found[following] = None
-                    waiting.append(following)
-    return tuple(found)
 
 
 def _hand_full(state: BurgerState) -> str | None:
