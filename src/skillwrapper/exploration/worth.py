@@ -19,7 +19,7 @@ Values = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Weights:
-    """What counts how much; starting points, chosen on the burger kitchen (docs/semantics.md D16).
+    """What counts how much; starting points, chosen on a bundled kitchen (docs/semantics.md D16).
 
     Attributes:
         unproven: newness of an attempt at a skill that never succeeded.

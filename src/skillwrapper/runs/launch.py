@@ -40,7 +40,7 @@ def learn(
 
     Args:
         settings: what to do; a mapping leaves out what stays at its default, and may name
-            settings with dots: ``{"domain": "burger", "learning.attempts": 5}``.
+            settings with dots: ``{"domain": "my_folder", "learning.attempts": 5}``.
         out: the folder of the run; one that holds a run with the same settings is resumed. None
             keeps nothing but the result.
         environment: the robot or simulator; a ``Robot`` works in the domain that the settings
