@@ -10,8 +10,8 @@ from base64 import b64encode
 from pathlib import Path
 
 import pytest
+from seen_kitchen import embedded_model
 
-from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded import server_faults as faults
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FaultPlan
@@ -58,7 +58,7 @@ def assert_clean(said: str, folder: Path) -> None:
 
 def serving(*kinds: str, after: int = 0) -> VlmServer:
     plan = FaultPlan(1.0 if kinds else 0.0, kinds or faults.PASSING, after=after)
-    return VlmServer(EmbeddedModel(0), ServerSettings(faults=plan))
+    return VlmServer(embedded_model(), ServerSettings(faults=plan))
 
 
 def with_login(url: str) -> str:

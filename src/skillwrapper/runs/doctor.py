@@ -56,7 +56,7 @@ def examine(settings: ModelSettings, domain: str | None = None) -> Iterator[Find
     """
     specimen = read_specimen(find_domain(domain) if domain else _bundled())
     try:
-        model = open_model(settings.name, settings, 0)
+        model = open_model(settings.name, settings, 0, domain)
     except (ProviderError, UserError) as error:
         yield Finding("name and key", False, str(error))
         return
