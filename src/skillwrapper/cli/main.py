@@ -63,7 +63,7 @@ def main() -> None:
             said = (
                 "stopped; everything that was finished is kept: run the same command again to go on"
             )
-            messages().print(Text(said, "yellow"))
+            messages().print(Text(said, "yellow"), soft_wrap=True)
             raise SystemExit(stop.exit_code) from ended
 
 

@@ -16,7 +16,7 @@ from typing import Generic, TypeVar
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
-_GRACE = 1.0
+_GRACE = 0.5
 """Seconds that calls in flight get when a wave ends early."""
 
 
