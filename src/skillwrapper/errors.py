@@ -6,7 +6,8 @@ SkillWrapperError
 │   ├── UnknownNameError      a name that does not exist; says which come close
 │   ├── GoalError             a goal expression
 │   ├── PictureError          a file that is not a readable picture
-│   ├── FileError             a file that is damaged, or cannot be read or written
+│   ├── FileError             a file that is damaged, or cannot be read
+│   │   └── FileNotWritableError  ... or cannot be written
 │   ├── RunFolderError        a run folder that cannot be used
 │   ├── SymbolError           a predicate, atom or operator that is not well formed
 │   └── MissingDependencyError  something must be installed
@@ -79,6 +80,10 @@ class PictureError(UserError):
 
 class FileError(UserError):
     """A file is damaged, or cannot be read or written."""
+
+
+class FileNotWritableError(FileError):
+    """A file cannot be written: its folder, its rights or its medium do not allow it."""
 
 
 class RunFolderError(UserError):

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from skillwrapper.cli.output import JsonFlag, print_json, results
+from skillwrapper.errors import FileNotWritableError
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.report import ReportSettings, write_experiment_report, write_report
 from skillwrapper.runs.archive import RunArchive
@@ -30,12 +31,18 @@ def report(
     as_json: JsonFlag = False,
 ) -> None:
     """Write one HTML file: what a run learned, from what, at what price; or how methods compare."""
-    if ExperimentFolder.is_one(run):
-        written = write_experiment_report(ExperimentFolder.open(run), out, width)
-    else:
-        settings = ReportSettings(picture_width=width, episodes=episodes)
-        written = write_report(RunArchive.open(run), out, settings)
+    try:
+        written = _write(run, out, ReportSettings(picture_width=width, episodes=episodes))
+    except FileNotWritableError as error:
+        advice = "; choose another place with --out" if out is None else ""
+        raise FileNotWritableError(f"{error}{advice}") from error
     if as_json:
         print_json({"report": str(written), "bytes": written.stat().st_size})
     else:
         results().print(f"wrote {written}", markup=False)
+
+
+def _write(run: Path, out: Path | None, settings: ReportSettings) -> Path:
+    if ExperimentFolder.is_one(run):
+        return write_experiment_report(ExperimentFolder.open(run), out, settings.picture_width)
+    return write_report(RunArchive.open(run), out, settings)

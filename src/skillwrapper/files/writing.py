@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from skillwrapper.errors import FileError
+from skillwrapper.errors import FileError, FileNotWritableError
 
 _TEMPORARY = ".tmp"
 _KERNEL_FOLDERS = ("/dev/", "/proc/")
@@ -136,12 +136,12 @@ def explained(path: Path) -> Iterator[None]:
     """Errors of the system in writing a file or folder, as one sentence.
 
     Raises:
-        FileError: instead of an ``OSError``.
+        FileNotWritableError: instead of an ``OSError``.
     """
     try:
         yield
     except OSError as error:
         reason = error.strerror or str(error)
-        raise FileError(f"{path}: cannot be written ({reason})") from error
+        raise FileNotWritableError(f"{path}: cannot be written ({reason})") from error
     except ValueError as error:  # a null character in the name
-        raise FileError(f"{str(path)!r}: cannot be written ({error})") from error
+        raise FileNotWritableError(f"{str(path)!r}: cannot be written ({error})") from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
 import threading
 import time
@@ -195,13 +196,26 @@ class CallStore:
         if self._read_only and not self.path.is_file():
             raise RunFolderError(f"{self.path}: expected a call store, got no such file")
         with self._translated():
-            uri = f"{self.path.absolute().as_uri()}{'?mode=ro' if self._read_only else ''}"
-            connection = sqlite3.connect(uri, uri=True, timeout=30, check_same_thread=False)
+            if not self._read_only:
+                return self._connect("")
             try:
-                self._prepare(connection)
-            except BaseException:
-                connection.close()
-                raise
+                return self._connect("?mode=ro")
+            except sqlite3.OperationalError:
+                # SQLite wants to write beside the file even for reading; on read-only media it
+                # has to be told that nobody else will, which is true if no journal is left open.
+                journal = self.path.with_name(f"{self.path.name}-wal")
+                if os.access(self.path.parent, os.W_OK) or _size(journal) > 0:
+                    raise
+                return self._connect("?immutable=1")
+
+    def _connect(self, parameters: str) -> sqlite3.Connection:
+        uri = f"{self.path.absolute().as_uri()}{parameters}"
+        connection = sqlite3.connect(uri, uri=True, timeout=30, check_same_thread=False)
+        try:
+            self._prepare(connection)
+        except BaseException:
+            connection.close()
+            raise
         return connection
 
     def _prepare(self, connection: sqlite3.Connection) -> None:
@@ -261,3 +275,7 @@ FROM calls WHERE NOT shared GROUP BY role, iteration
 
 def _one_line(error: Exception) -> str:
     return " ".join(str(error).split())
+
+
+def _size(path: Path) -> int:
+    return path.stat().st_size if path.exists() else 0
