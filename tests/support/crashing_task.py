@@ -6,8 +6,8 @@ import os
 import signal
 from pathlib import Path
 
-from skillwrapper.evaluation.benchmark.workers import CellOutcome
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.benchmark.running import CellOutcome
+from skillwrapper.evaluation.methods.cell import Cell
 
 
 def crash_once(path: Path, cell: Cell) -> CellOutcome:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillwrapper.evaluation.benchmark.bills import Bill
+from skillwrapper.evaluation.benchmark.call_costs import CallCosts
 from skillwrapper.evaluation.benchmark.cells import CellResult
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.problems.causes import Cause
 from skillwrapper.evaluation.problems.problems import ProblemClass
 from skillwrapper.evaluation.problems.results import ProblemResult
@@ -61,9 +61,9 @@ def made_up_cell(
         learning={"executions": 10} if learned else {},
         efficiency=efficiency if learned else None,
         seconds=9.0,
-        bills={"learning": _bill(7, cost) if learned else None, "solving": _bill(8, cost)},
+        costs={"learning": _cost(7, cost) if learned else None, "solving": _cost(8, cost)},
     )
 
 
-def _bill(calls: int, cost: float | None) -> dict[str, object]:
-    return Bill(calls, cost, None, None, 1.0).to_json()
+def _cost(calls: int, cost: float | None) -> dict[str, object]:
+    return CallCosts(calls, cost, None, None, 1.0).to_json()

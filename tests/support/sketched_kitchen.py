@@ -6,6 +6,7 @@ from functools import cache
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.states import BurgerState
+from skillwrapper.evaluation.exact.labelled_states import SceneStates
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
 from skillwrapper.world import Picture
@@ -19,8 +20,12 @@ class SketchedKitchen(BurgerEnvironment):
 
 
 @cache
+def sketched_states() -> SceneStates:
+    return SceneStates(SketchedKitchen())
+
+
 def space() -> StateSpace:
-    return StateSpace.of(SketchedKitchen())
+    return sketched_states().space
 
 
 def make_problem(start: BurgerState, goal: BurgerState) -> Problem:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
@@ -14,17 +15,22 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.setting_options import ConfigOption, SetOption
 from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.errors import ConfigurationError
+from skillwrapper.evaluation.benchmark.experiment_files import read_experiment
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
-from skillwrapper.evaluation.benchmark.experiments import read_experiment
 from skillwrapper.evaluation.benchmark.plots import plot_experiment
 from skillwrapper.evaluation.benchmark.ray_workers import open_ray_workers
-from skillwrapper.evaluation.benchmark.running import run_experiment
+from skillwrapper.evaluation.benchmark.running import (
+    ERROR,
+    CellOutcome,
+    open_workers,
+    run_experiment,
+)
+from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
 from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
-from skillwrapper.evaluation.benchmark.tables import Report
-from skillwrapper.evaluation.benchmark.workers import ERROR, CellOutcome, open_workers
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.methods.cell import Cell
 
 FolderArgument = Annotated[Path, typer.Argument(help="Folder of an experiment.")]
 
@@ -55,15 +61,20 @@ def run(
     ray: Annotated[
         str | None, typer.Option(help="Address of a Ray cluster: auto, local, ray://HOST:PORT.")
     ] = None,
+    config: ConfigOption = None,
+    assignments: SetOption = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Run all cells of an experiment; the same command again runs those that are missing."""
-    folder = ExperimentFolder.create_or_resume(out, read_experiment(file))
+    folder = ExperimentFolder.create_or_resume(
+        out, read_experiment(file, config, assignments or ())
+    )
     cells = len(folder.experiment().cells)
     opened = open_ray_workers(out, ray) if ray is not None else open_workers(out, workers)
     console = messages()
     with folder.reserved(), opened as team, _progress(console) as progress:
-        folder.note_run(_command(file, out, workers, ray))
+        changes = _changes(config, assignments)
+        folder.note_run(_command(file, out, workers, ray) + changes)
         ended = _watch(progress, console, cells, folder)
         outcomes = run_experiment(folder, team, ended=ended)
     failed = [outcome for outcome in outcomes if outcome.error]
@@ -87,7 +98,7 @@ def table(
 ) -> None:
     """Print the tables of an experiment, of whatever cells are finished."""
     report = _report(ExperimentFolder.open(folder))
-    writers: dict[TableFormat, Callable[[Report], str]] = {
+    writers: dict[TableFormat, Callable[[ExperimentSummary], str]] = {
         TableFormat.MARKDOWN: to_markdown,
         TableFormat.LATEX: to_latex,
         TableFormat.CSV: to_csv,
@@ -125,9 +136,15 @@ def _command(file: Path, out: Path, workers: int, ray: str | None) -> str:
     return f"skillwrapper experiment run {file} --out {out} {team}"
 
 
-def _report(folder: ExperimentFolder) -> Report:
+def _changes(config: Path | None, assignments: list[str] | None) -> str:
+    """The options that change settings, as they were given."""
+    given = [f" --config {config}"] if config is not None else []
+    return "".join((*given, *(f" --set {shlex.quote(text)}" for text in assignments or ())))
+
+
+def _report(folder: ExperimentFolder) -> ExperimentSummary:
     cells = tuple(folder.results())
-    return Report.of(folder.experiment(), cells, folder.runs(), folder.published())
+    return ExperimentSummary.of(folder.experiment(), cells, folder.runs(), folder.published())
 
 
 def _progress(console: Console) -> Progress:
@@ -160,7 +177,7 @@ def _describe(folder: ExperimentFolder, cell: Cell) -> str:
     return f"{cell.name}: {solved} of {len(found.problems)} solved, {found.seconds:.0f} s"
 
 
-def _print_report(report: Report, console: Console) -> None:
+def _print_report(report: ExperimentSummary, console: Console) -> None:
     for content in report.tables():
         shown = RichTable(title=content.title, title_justify="left", box=None, pad_edge=False)
         for number, heading in enumerate(content.headings):

@@ -19,6 +19,7 @@ from skillwrapper.cli import (
     reporting,
     settings,
     studies,
+    verification,
 )
 from skillwrapper.cli.output import messages
 from skillwrapper.cli.stopping import StopSignals
@@ -35,6 +36,7 @@ app = typer.Typer(
 _GROUPS = (
     learning,
     models,
+    verification,
     operators,
     planning,
     domains,

@@ -1,4 +1,4 @@
-"""``skillwrapper show`` and ``skillwrapper verify``: what was learned, and whether it is true."""
+"""``skillwrapper show``: what was learned."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
-from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.cli.verification import print_curve, print_verification, run_verification
+from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.runs.archive import ArchivedIteration, RunArchive
 from skillwrapper.runs.archive.pictures import PictureStore
 from skillwrapper.runs.archive.records import to_plain
@@ -23,7 +22,6 @@ RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
 def register(app: typer.Typer) -> None:
     """Add the commands of this group."""
     app.command()(show)
-    app.command()(verify)
 
 
 def show(
@@ -40,29 +38,6 @@ def show(
         typer.echo(print_domain(learned.model), nl=False)
     else:
         _print(learned, archive.pictures)
-
-
-def verify(
-    run: RunArgument,
-    layout_seed: Annotated[
-        int | None, typer.Option(min=0, help="Layout of the pictures; default: one not seen.")
-    ] = None,
-    curve: Annotated[
-        bool,
-        typer.Option(
-            "--curve", help="Check every iteration's model; keep the curve for the report."
-        ),
-    ] = False,
-    as_json: JsonFlag = False,
-) -> None:
-    """Compare the model with the domain in every reachable state, read from its picture."""
-    checked = run_verification(RunArchive.open(run), layout_seed, messages(), curve=curve)
-    if as_json:
-        print_json(checked.to_json())
-        return
-    print_verification(checked.verification, results())
-    if checked.curve:
-        print_curve(checked.curve, results())
 
 
 def _describe(learned: ArchivedIteration) -> dict[str, object]:

@@ -12,6 +12,7 @@ from skillwrapper.cli.domain_argument import DomainArgument
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
+from skillwrapper.evaluation.problems.problem_files import problems_data, write_problems
 from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.world.capabilities import Enumerable, require
@@ -29,6 +30,7 @@ def problems(
     hard: Annotated[int, typer.Option(min=0, help="Optimal solutions of 8 to 15 skills.")] = 20,
     impossible: Annotated[int, typer.Option(min=0, help="Proven to have no solution.")] = 10,
     seed: Annotated[int, typer.Option(min=0, help="Decides every choice.")] = 0,
+    scene: Annotated[str | None, typer.Option(help="One of the domain's scenes.")] = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Make test problems by exact search; the same seed makes the same ones."""
@@ -36,14 +38,15 @@ def problems(
     environment = require(package.make_environment(), Enumerable, "making problems")
     if out is not None and out.exists():
         raise ConfigurationError(f"{out} exists already; choose another --out, nothing was changed")
+    environment.reset(seed=0, scene=scene)
     with messages().status("searching all states"):
         generator = ProblemGenerator(environment, package, seed)
         made = generator.generate(easy, hard, impossible)
     environment.close()
     if out is not None:
-        made.write(out)
+        write_problems(made, out)
     if as_json:
-        print_json({"out": None if out is None else str(out), **made.to_data()})
+        print_json({"out": None if out is None else str(out), **problems_data(made)})
     else:
         _print(made, out)
 

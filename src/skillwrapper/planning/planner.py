@@ -25,17 +25,23 @@ _MOST_ASKED = 16
 
 
 class PlannerSettings(BaseModel):
-    """How plans are looked for.
-
-    Attributes:
-        plans: how many different skill plans at most.
-        time_limit: wall-clock seconds for one problem.
-    """
+    """How plans are looked for."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    plans: int = Field(default=10, ge=1)
-    time_limit: float = Field(default=30.0, gt=0.0, allow_inf_nan=False)
+    plans: int = Field(
+        default=10,
+        ge=1,
+        description="different skill plans at most",
+        json_schema_extra={"unit": "plans"},
+    )
+    time_limit: float = Field(
+        default=30.0,
+        gt=0.0,
+        allow_inf_nan=False,
+        description="wall-clock time for one problem",
+        json_schema_extra={"unit": "seconds"},
+    )
 
 
 @dataclass(frozen=True)

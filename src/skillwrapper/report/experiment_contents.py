@@ -10,7 +10,9 @@ from skillwrapper.evaluation.benchmark.cells import CellResult
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.evaluation.benchmark.experiments import Experiment
 from skillwrapper.evaluation.benchmark.figures import group_cells
-from skillwrapper.evaluation.benchmark.tables import Report, Table
+from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
+from skillwrapper.evaluation.benchmark.tables import Table
+from skillwrapper.evaluation.methods.cell import domain_key
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.problems.problems import Problem
 from skillwrapper.report.charts import LineChart, Series
@@ -104,7 +106,7 @@ class ExperimentContents:
     """
 
     experiment: Experiment
-    report: Report
+    report: ExperimentSummary
     groups: tuple[Group, ...]
     problems: tuple[ProblemCases, ...]
 
@@ -116,16 +118,14 @@ class ExperimentContents:
             RunFolderError: if a file is damaged.
         """
         experiment, cells = folder.experiment(), tuple(folder.results())
-        report = Report.of(experiment, cells, folder.runs(), folder.published())
+        report = ExperimentSummary.of(experiment, cells, folder.runs(), folder.published())
         groups = []
         for (domain, noise), by_method in group_cells(cells).items():
-            mine = [
-                table for table in report.tables() if table.title.endswith(_where(domain, noise))
-            ]
+            mine = report.tables_of(domain, noise)
             ordered = {name: by_method[name] for name in METHODS if name in by_method}
             names = tuple(p.name for p in folder.problems(domain).problems)
             matrix = tuple(_row(name, found, names) for name, found in ordered.items())
-            groups.append(Group(domain, noise, _curves(ordered), names, matrix, tuple(mine)))
+            groups.append(Group(domain_key(domain), noise, _curves(ordered), names, matrix, mine))
         problems = tuple(
             found
             for domain in experiment.domains
@@ -133,10 +133,6 @@ class ExperimentContents:
             if (found := _cases(domain, problem, cells)).cases
         )
         return cls(experiment, report, tuple(groups), problems)
-
-
-def _where(domain: str, noise: str) -> str:
-    return f"({domain}, noise {noise})"
 
 
 def _row(method: str, cells: Sequence[CellResult], problems: Iterable[str]) -> MatrixRow:
@@ -156,8 +152,12 @@ def _curves(by_method: dict[str, list[CellResult]]) -> tuple[LineChart, ...]:
         series = []
         for title, found in curves.items():
             steps = zip(*found, strict=False)
-            points = ((s[0]["executions"], fmean(p[key] for p in s)) for s in steps)
-            if found:
+            points = [
+                (s[0]["executions"], fmean(p[key] for p in s))
+                for s in steps
+                if all(p[key] is not None for p in s)
+            ]
+            if points:
                 series.append(Series(title, tuple(points)))
         charts.append(LineChart(f"Exact {key}", tuple(series), share=True))
     return tuple(chart for chart in charts if chart.series)

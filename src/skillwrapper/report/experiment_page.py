@@ -4,40 +4,50 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from skillwrapper.evaluation.benchmark.experiment_folder import (
-    ExperimentFolder,
-    enumerable_environment,
-)
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.report.experiment_contents import ExperimentContents, ProblemCases
 from skillwrapper.report.page import page_environment
 from skillwrapper.report.pictures import Thumbnails
-from skillwrapper.world.capabilities import Enumerable
+from skillwrapper.world.capabilities import Settable, supports
+from skillwrapper.world.environment import Environment
 
 _PICTURE_WIDTH = 200
 
 
 class _ProblemPictures:
-    """Draws initial and goal pictures of problems when they are needed."""
+    """Shows initial and goal pictures of problems when they are needed."""
 
     def __init__(self, width: int) -> None:
         self._thumbnails = Thumbnails(width)
-        self._environments: dict[str, Enumerable] = {}
+        self._environments: dict[str, Environment] = {}
 
     def of(self, case: ProblemCases) -> tuple[str, str]:
-        """The first picture of the start and of the goal as data URIs."""
-        if case.domain not in self._environments:
-            self._environments[case.domain] = enumerable_environment(case.domain)
-        environment, problem = self._environments[case.domain], case.problem
-        start, end = (environment.state_from_data(d) for d in (problem.initial, problem.goal))
-        seen = environment.set_state(start, seed=problem.layout)
-        goal = environment.set_state(end)
-        first, last = (self._thumbnails.uri(o.pictures[0].png) for o in (seen, goal))
-        return first, last
+        """The first picture of the start and of the goal as data URIs; empty for what is not shown.
+
+        Only what can be shown without running anything: states, and pictures that were given.
+        """
+        environment, problem = self._environment(case.domain), case.problem
+        if not supports(environment, Settable) or problem.initial is None:
+            goal = problem.goal_picture
+            return "", self._thumbnails.uri(goal.png) if goal else ""
+        world = ProblemWorld(environment)
+        start, goal_shown = world.start(problem), world.goal(problem)
+        first = self._thumbnails.uri(start.look().pictures[0].png)
+        if goal_shown is None:
+            return first, ""
+        return first, self._thumbnails.uri(goal_shown.look().pictures[0].png)
 
     def close(self) -> None:
         for environment in self._environments.values():
             environment.close()
+
+    def _environment(self, domain: str) -> Environment:
+        if domain not in self._environments:
+            self._environments[domain] = find_domain(domain).make_environment()
+        return self._environments[domain]
 
 
 def render_experiment(folder: ExperimentFolder, picture_width: int = _PICTURE_WIDTH) -> str:

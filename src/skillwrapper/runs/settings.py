@@ -130,8 +130,8 @@ class CallSettings(BaseModel):
         )
 
 
-class RunSettings(BaseModel):
-    """Everything that decides what a run does."""
+class RunIdentity(BaseModel):
+    """What a run is of."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -144,6 +144,13 @@ class RunSettings(BaseModel):
         description="decides everything left to chance: sequences, layouts, the embedded model",
         json_schema_extra={"unit": "a number"},
     )
+
+
+class SharedSettings(BaseModel):
+    """What runs of several domains and seeds may have in common."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
     iterations: int = Field(
         default=5,
         ge=1,
@@ -167,6 +174,10 @@ class RunSettings(BaseModel):
     calls: CallSettings = Field(
         default_factory=CallSettings, description="what may be spent on model calls"
     )
+
+
+class RunSettings(SharedSettings, RunIdentity):
+    """Everything that decides what a run does."""
 
     def layout_seed(self, iteration: int) -> int:
         """The seed with which the environment is reset in an iteration (from 1)."""

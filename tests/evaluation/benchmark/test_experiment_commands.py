@@ -71,7 +71,7 @@ def test_failed_cell_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     def fail(folder: object, cell: object) -> None:
         raise ConfigurationError("something is wrong")
 
-    monkeypatch.setattr("skillwrapper.evaluation.benchmark.workers._run", fail)
+    monkeypatch.setattr("skillwrapper.evaluation.benchmark.running._run", fail)
     (tmp_path / "tiny.yaml").write_text(FILE)
     done = invoke("experiment", "run", tmp_path / "tiny.yaml", "--out", tmp_path / "out", "--json")
     assert done.exit_code == 1

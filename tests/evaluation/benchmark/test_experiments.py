@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from skillwrapper.errors import ConfigurationError, RunFolderError, UserError
+from skillwrapper.evaluation.benchmark.experiment_files import read_experiment
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
-from skillwrapper.evaluation.benchmark.experiments import Experiment, read_experiment
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.benchmark.experiments import Experiment
+from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.registry import METHODS
 
 SHIPPED = Path(__file__).parents[3] / "experiments"

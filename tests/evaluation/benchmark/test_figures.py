@@ -13,11 +13,11 @@ from made_up_cells import made_up_cell
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import MissingDependencyError
 from skillwrapper.evaluation.benchmark import plots
-from skillwrapper.evaluation.benchmark.experiments import Experiment
-from skillwrapper.evaluation.benchmark.figures import MethodFigures, Spread, compare, mcnemar
-from skillwrapper.evaluation.benchmark.origins import Origin
+from skillwrapper.evaluation.benchmark.comparisons import compare, mcnemar
+from skillwrapper.evaluation.benchmark.experiments import CommandRecord, Experiment
+from skillwrapper.evaluation.benchmark.figures import MethodFigures, Spread
+from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
 from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
-from skillwrapper.evaluation.benchmark.tables import Report
 from skillwrapper.evaluation.exact.learning_curves import area_under
 from skillwrapper.evaluation.published import published_figures
 
@@ -70,7 +70,7 @@ def test_an_unknown_cost_is_neither_zero_nor_left_out() -> None:
     assert both.is_unknown("cost")
     assert both.is_unknown("learning_cost")
     assert not figures(2, 3).is_unknown("learning_cost")  # nothing was asked
-    texts = {t.title: t.rows for t in Report.of(EXPERIMENT, [known, unknown]).tables()}
+    texts = {t.title: t.rows for t in ExperimentSummary.of(EXPERIMENT, [known, unknown]).tables()}
     assert "unknown" in texts["Solving all problems (burger, noise none)"][0]
     assert "unknown" in texts["Exploration and learning (burger, noise none)"][0]
 
@@ -83,7 +83,9 @@ def test_the_paper_stands_beside() -> None:
 
 def test_how_it_was_made_is_told() -> None:
     made = {"skillwrapper": "1.0", "commit": "0123456789abcdef", "changed": True, "python": "3.11"}
-    told = Report.of(EXPERIMENT, CELLS, (Origin("skillwrapper experiment run x", made),))
+    told = ExperimentSummary.of(
+        EXPERIMENT, CELLS, (CommandRecord("skillwrapper experiment run x", made),)
+    )
     text = to_markdown(told)
     assert "- Command: `skillwrapper experiment run x`" in text
     assert "commit 0123456789ab with uncommitted changes (Python 3.11)" in text
@@ -111,15 +113,21 @@ def test_mcnemar(wins: int, losses: int, p_value: float) -> None:
 
 @pytest.mark.parametrize(
     ("points", "area"),
-    [([], 0.0), ([(10, 1.0)], 0.0), ([(10, 1.0), (20, 1.0)], 0.5), ([(5, 0.4), (10, 1.0)], 0.2)],
+    [
+        ([], None),
+        ([(5, None)], None),
+        ([(10, 1.0)], 0.0),
+        ([(10, 1.0), (20, 1.0)], 0.5),
+        ([(5, 0.4), (10, 1.0)], 0.2),
+    ],
 )
-def test_area_under_a_staircase(points: list[tuple[int, float]], area: float) -> None:
+def test_area_under_a_staircase(points: list[tuple[int, float | None]], area: float | None) -> None:
     assert area_under(points) == pytest.approx(area)
 
 
-def report() -> Report:
+def report() -> ExperimentSummary:
     published = published_figures(find_domain("burger")).results
-    return Report.of(EXPERIMENT, CELLS, published={"burger": published})
+    return ExperimentSummary.of(EXPERIMENT, CELLS, published={"burger": published})
 
 
 def test_report_as_json() -> None:

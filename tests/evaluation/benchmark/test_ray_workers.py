@@ -11,7 +11,7 @@ from crashing_task import crash_once
 
 from skillwrapper.errors import MissingDependencyError
 from skillwrapper.evaluation.benchmark.ray_workers import RayWorkers, open_ray_workers
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.methods.cell import Cell
 
 
 def test_ray_not_installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,19 +8,21 @@ import pytest
 from crashing_task import crash_once
 
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.evaluation.benchmark import workers as workers_module
+from skillwrapper.evaluation.benchmark import running
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.evaluation.benchmark.experiments import Experiment, ProblemChoice
-from skillwrapper.evaluation.benchmark.running import run_experiment
-from skillwrapper.evaluation.benchmark.workers import (
+from skillwrapper.evaluation.benchmark.running import (
     ERROR,
     CellOutcome,
     OwnProcess,
     Processes,
     open_workers,
+    run_experiment,
 )
-from skillwrapper.evaluation.methods.method import Cell, CellSettings
+from skillwrapper.evaluation.methods.cell import Cell
+from skillwrapper.evaluation.methods.settings import ExperimentSettings
+from skillwrapper.exploration.settings import ExplorationSettings
 
 
 def make_folder(path: Path, *methods: str) -> ExperimentFolder:
@@ -28,7 +30,7 @@ def make_folder(path: Path, *methods: str) -> ExperimentFolder:
         name="x",
         methods=methods,
         seeds=(0, 1),
-        settings=CellSettings(iterations=1, budget=4),
+        settings=ExperimentSettings(iterations=1, exploration=ExplorationSettings(budget=4)),
         problems=ProblemChoice(easy=1, hard=0, impossible=1),
     )
     return ExperimentFolder.create_or_resume(path, experiment)
@@ -87,13 +89,13 @@ def test_error_is_written_down_and_goes_when_mended(
 ) -> None:
     folder = make_folder(tmp_path / "out", "expert")
     cell = folder.experiment().cells[0]
-    monkeypatch.setattr(workers_module, "_run", _raise(ConfigurationError("no such thing")))
-    assert workers_module.work(folder.path, cell).error == "no such thing"
-    monkeypatch.setattr(workers_module, "_run", _raise(ZeroDivisionError("by zero")))
-    assert workers_module.work(folder.path, cell).error == "ZeroDivisionError: by zero"
+    monkeypatch.setattr(running, "_run", _raise(ConfigurationError("no such thing")))
+    assert running.work(folder.path, cell).error == "no such thing"
+    monkeypatch.setattr(running, "_run", _raise(ZeroDivisionError("by zero")))
+    assert running.work(folder.path, cell).error == "ZeroDivisionError: by zero"
     assert "Traceback" in (folder.cell(cell) / ERROR).read_text()
-    monkeypatch.setattr(workers_module, "_run", lambda folder, cell: None)
-    assert workers_module.work(folder.path, cell) == CellOutcome(cell)
+    monkeypatch.setattr(running, "_run", lambda folder, cell: None)
+    assert running.work(folder.path, cell) == CellOutcome(cell)
     assert not (folder.cell(cell) / ERROR).exists()
 
 
@@ -123,12 +125,12 @@ def test_real_cells_in_this_process(tmp_path: Path) -> None:
 def test_interrupted_cell_solves_only_what_is_left(tmp_path: Path) -> None:
     folder = make_folder(tmp_path / "out", "expert")
     cell = folder.experiment().cells[0]
-    workers_module.work(folder.path, cell)
+    running.work(folder.path, cell)
     (folder.cell(cell) / RESULT).unlink()
     record = folder.cell(cell) / "problems.jsonl"
     first = record.read_text().splitlines()[0]
     record.write_text(first + "\n" + '{"problem": "impos')  # cut short in the middle of a line
-    workers_module.work(folder.path, cell)
+    running.work(folder.path, cell)
     lines = record.read_text().splitlines()
     assert len(lines) == 2
     assert lines[0] == first

@@ -10,19 +10,20 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from skillwrapper.cli import verification
+from skillwrapper.cli.verification import print_curve
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.domains.package import DomainPackage
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates, SceneStates
 from skillwrapper.evaluation.exact.learning_curves import (
     Stage,
     area_under,
     learning_curve,
     read_stages,
 )
-from skillwrapper.evaluation.exact.state_space import StateSpace
-from skillwrapper.evaluation.problems.readers import AtomReader
+from skillwrapper.evaluation.exact.run_checks import CheckOptions, LabelSource, check_run
+from skillwrapper.evaluation.exact.state_readers import AtomReader
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.report import render_report
 from skillwrapper.runs.archive import RunArchive
@@ -47,13 +48,12 @@ class FirstStates(BurgerEnvironment):
 
 
 def test_the_expert_knows_all_and_nobody_knows_nothing() -> None:
-    kitchen, model = BurgerEnvironment(), expert_model()
-    space = StateSpace.of(kitchen)
-    reader = AtomReader(expert_atoms)
+    model = expert_model()
+    states = LabelledStates(SceneStates(BurgerEnvironment()), AtomReader(expert_atoms))
     empty = AbstractModel(model.domain, model.predicates, ())
     stages = (Stage(10, empty), Stage(30, model))
-    first, last = learning_curve(stages, space, lambda atoms: reader.read(atoms, space.states))
-    assert (first.executions, first.precision, first.recall) == (10, 1.0, 0.0)
+    first, last = learning_curve(stages, [states])
+    assert (first.executions, first.precision, first.recall) == (10, None, 0.0)
     assert (last.precision, last.recall, last.effect_accuracy) == (1.0, 1.0, 1.0)
     assert last.operators == len(model.operators)
     assert area_under([(p.executions, p.recall) for p in (first, last)]) == 0.0
@@ -69,10 +69,10 @@ def test_the_curve_of_a_run_is_kept_and_shown(
     monkeypatch.setattr(DomainPackage, "make_environment", lambda package: FirstStates())
     output = Console(file=io.StringIO(), width=120)
 
-    plain = verification.run_verification(archive, None, output)
-    checked = verification.run_verification(archive, None, output, curve=True)
+    plain = check_run(archive, CheckOptions())
+    checked = check_run(archive, CheckOptions(LabelSource.MODEL, curve=True))
 
-    assert plain.curve == ()
+    assert (plain.curve, plain.labels) == ((), LabelSource.TRUE)
     assert "curve" not in plain.to_json()
     assert [p.executions for p in checked.curve] == [5, 10]
     assert len(read_stages(archive)) == 2
@@ -80,5 +80,5 @@ def test_the_curve_of_a_run_is_kept_and_shown(
     written = json.loads(archive.layout.curve.read_text())
     assert written == checked.to_json()["curve"]
     assert "Exact truth" in render_report(archive)
-    verification.print_curve(checked.curve, output)
+    print_curve(checked.curve, output)
     assert "area under recall" in output.file.getvalue()  # type: ignore[attr-defined]

@@ -5,52 +5,34 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
-import numpy as np
-import pytest
+from sketched_kitchen import sketched_states
 
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
-from skillwrapper.errors import InternalError
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates, SceneStates
+from skillwrapper.evaluation.exact.state_readers import AtomReader, Situation
+from skillwrapper.evaluation.exact.verdicts import Verdict
 from skillwrapper.evaluation.exact.verification import Verification, verify
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.symbols import AbstractModel, Operator, Predicate
 from skillwrapper.symbols.predicates import Atom, Literal
-from skillwrapper.world import Observation, Picture
-
-
-class SketchedKitchen(BurgerEnvironment):
-    """Draws a state by writing it down: drawing all states in colour takes too long here."""
-
-    def draw(self, state: BurgerState, layout: int) -> Picture:
-        return Picture(repr(state).encode())
-
-
-@cache
-def state_of_sketch() -> dict[bytes, BurgerState]:
-    return {repr(state).encode(): state for state in BurgerEnvironment().reachable_states()}
-
-
-def reader(model: AbstractModel) -> Callable[[Sequence[Observation]], Labels]:
-    """A labeller without error."""
-    space = AtomSpace(model.predicates, model.domain.objects)
-
-    def read(observations: Sequence[Observation]) -> Labels:
-        labels = np.zeros((len(observations), len(space.atoms)), dtype=np.int8)
-        for row, observation in enumerate(observations):
-            state = state_of_sketch()[observation.pictures[0].png]
-            true = set(expert_atoms(state)) & set(space.atoms)
-            labels[row, space.columns(true)] = 1
-        return labels
-
-    return read
+from skillwrapper.world import Observation
 
 
 def check(model: AbstractModel) -> Verification:
-    return verify(SketchedKitchen(), model, reader(model))
+    return verify([LabelledStates(sketched_states(), AtomReader(expert_atoms))], model)
+
+
+def holds(found: Verification) -> tuple[bool | None, bool | None, bool | None]:
+    verdicts = found.verdicts
+    return (verdicts.sound.known, verdicts.complete.known, verdicts.suitable.known)
+
+
+def of_skills(found: Verification, figure: str) -> dict[str, float | None]:
+    return {name: getattr(tally, figure) for name, tally in found.by_skill.items()}
 
 
 def changed(name: str, change: Callable[[Operator], Operator]) -> AbstractModel:
@@ -63,30 +45,64 @@ def changed(name: str, change: Callable[[Operator], Operator]) -> AbstractModel:
 
 def test_expert_is_exact() -> None:
     found = check(expert_model())
-    assert (found.states, found.pairs, found.successes) == (2417, 62842, 5806)
+    assert (found.states, found.pairs, found.total.successes) == (2417, 62842, 5806)
     assert found.precision == found.recall == found.effect_accuracy == 1.0
-    assert set(found.recall_by_skill.items()) == {
-        (skill, 1.0) for skill in ("Pick", "Place", "Stack", "Cut", "Cook")
-    }
-    assert (found.sound, found.complete, found.suitable) == (True, True, True)
+    assert of_skills(found, "recall") == dict.fromkeys(
+        ("Pick", "Place", "Stack", "Cut", "Cook"), 1.0
+    )
+    assert found.vocabulary is not None
+    assert found.vocabulary.share == 1.0
+    assert holds(found) == (True, True, True)
     assert (found.undecided, found.counterexamples) == (0, ())
     assert found.seconds < 30
 
 
 def test_no_model_at_all() -> None:
+    """Fault 25: what is of nothing is undefined, and never 1."""
     found = check(AbstractModel(expert_model().domain, (), ()))
-    assert (found.precision, found.recall, found.effect_accuracy) == (1.0, 0.0, 1.0)
-    # Without predicates all states look the same, so the empty plan leads everywhere.
-    assert (found.sound, found.complete, found.suitable) == (True, True, False)
+    assert (found.precision, found.recall, found.effect_accuracy) == (None, 0.0, None)
+    assert holds(found) == (None, None, False)
+    assert (found.verdicts.sound, found.verdicts.complete) == (Verdict.UNDEFINED,) * 2
+    assert found.vocabulary is not None
+    assert found.vocabulary.share == 0.0
+    assert json.loads(json.dumps(found.to_json()))["precision"] is None
+
+
+def test_predicates_without_operators() -> None:
+    found = check(replace(expert_model(), operators=()))
+    assert (found.precision, found.recall, found.effect_accuracy) == (None, 0.0, None)
+    assert holds(found) == (None, False, False)
+
+
+def test_a_poor_vocabulary_predicts_perfectly_and_is_told() -> None:
+    """Fault 33: without a word for what Cook does, Cook does nothing, and rightly so."""
+    model = expert_model()
+
+    def without_cooked(operator: Operator) -> Operator:
+        kept = {
+            name: frozenset(x for x in getattr(operator, name) if "is_cooked" not in str(x))
+            for name in ("preconditions", "add_effects", "delete_effects")
+        }
+        return replace(operator, **kept)
+
+    operators = tuple(without_cooked(o) for o in model.operators)
+    predicates = tuple(p for p in model.predicates if p.name != "is_cooked")
+    found = check(replace(model, predicates=predicates, operators=operators))
+    assert found.recall == found.effect_accuracy == 1.0
+    assert found.by_skill["Cook"].effect_accuracy == 1.0
+    assert found.vocabulary is not None
+    assert found.vocabulary.share is not None
+    assert found.vocabulary.share < 1.0
+    assert [str(atom) for atom in found.vocabulary.undetermined] == ["is_cooked(patty)"]
 
 
 def test_missing_skill() -> None:
     model = expert_model()
     found = check(replace(model, operators=tuple(o for o in model.operators if o.skill != "Cut")))
     assert found.precision == found.effect_accuracy == 1.0
-    assert found.recall_by_skill == {"Pick": 1, "Place": 1, "Stack": 1, "Cut": 0, "Cook": 1}
+    assert of_skills(found, "recall") == {"Pick": 1, "Place": 1, "Stack": 1, "Cut": 0, "Cook": 1}
     assert 0.98 < found.recall < 1.0
-    assert (found.sound, found.complete, found.suitable) == (True, False, False)
+    assert holds(found) == (True, False, False)
     incomplete, unsuitable = found.counterexamples
     assert incomplete.verdict == "complete"
     assert [str(i) for i in incomplete.path] == [
@@ -103,8 +119,8 @@ def test_missing_precondition() -> None:
     found = check(changed("Place", lambda o: replace(o, preconditions=o.preconditions - {free})))
     assert found.recall == found.effect_accuracy == 1.0
     assert found.precision < 1.0
-    assert found.precision_by_skill["Place"] < found.precision_by_skill["Pick"] == 1.0
-    assert (found.sound, found.complete, found.suitable) == (False, True, False)
+    assert found.by_skill["Place"].precision < found.by_skill["Pick"].precision == 1.0
+    assert holds(found) == (False, True, False)
     unsound = found.counterexamples[0]
     assert len(unsound.path) == 3
     assert unsound.reason == "applies, but fails"
@@ -116,8 +132,8 @@ def test_missing_absence() -> None:
     found = check(changed("Pick_from_table", lambda o: replace(o, absences=frozenset())))
     assert found.precision == found.recall == 1.0
     assert found.effect_accuracy < 1.0
-    assert found.effect_accuracy_by_skill["Pick"] < found.effect_accuracy_by_skill["Stack"] == 1.0
-    assert (found.sound, found.complete, found.suitable) == (False, True, False)
+    assert found.by_skill["Pick"].effect_accuracy < found.by_skill["Stack"].effect_accuracy == 1.0
+    assert holds(found) == (False, True, False)
     unsound = found.counterexamples[0]
     assert len(unsound.path) == 2
     assert unsound.instance.skill == "Pick"
@@ -131,35 +147,30 @@ def test_wrong_effect_that_nothing_depends_on() -> None:
         lambda o: replace(o, add_effects=o.add_effects | {Atom("shiny", ("?robot",))}),
     )
     found = check(replace(model, predicates=(*model.predicates, shiny)))
-    assert (found.sound, found.complete, found.suitable) == (False, False, True)
+    assert holds(found) == (False, False, True)
     assert found.counterexamples[0].path == ()
     assert found.counterexamples[0].difference == ("shiny(robot): predicted true, is false",)
 
 
 def test_forgotten_effect() -> None:
     found = check(changed("Cook", lambda o: replace(o, add_effects=frozenset())))
-    assert (found.sound, found.complete, found.suitable) == (False, False, False)
+    assert holds(found) == (False, False, False)
     assert "whether Cook(robot, patty) can follow" in found.counterexamples[-1].reason
-    assert found.effect_accuracy_by_skill["Cook"] == 0.0
+    assert found.by_skill["Cook"].effect_accuracy == 0.0
 
 
 def test_unknown_labels_are_counted_apart() -> None:
-    model = expert_model()
+    class Unsure(AtomReader):
+        def read(self, space: AtomSpace, situations: Sequence[Situation]) -> Labels:
+            labels = super().read(space, situations)
+            labels[:, [i for i, a in enumerate(space.atoms) if a.predicate == "hand_empty"]] = -1
+            return labels
 
-    def read(observations: Sequence[Observation]) -> Labels:
-        labels = reader(model)(observations)
-        labels[:, 0] = -1  # the hand
-        return labels
-
-    found = verify(SketchedKitchen(), model, read)
+    labelled = LabelledStates(sketched_states(), Unsure(expert_atoms))
+    found = verify([labelled], expert_model())
     assert found.undecided > 0
     assert found.precision == 1.0
-    assert found.recall_by_skill["Pick"] == 0.0
-
-
-def test_labels_of_the_wrong_shape() -> None:
-    with pytest.raises(InternalError, match=r"expected labels of shape \(2417, 33\), got \(1, 2\)"):
-        verify(SketchedKitchen(), expert_model(), lambda _: np.zeros((1, 2), dtype=np.int8))
+    assert found.by_skill["Pick"].recall == 0.0
 
 
 def test_json_and_pictures(tmp_path: Path) -> None:
@@ -176,8 +187,7 @@ def test_json_and_pictures(tmp_path: Path) -> None:
     assert all(p.read_bytes() for p in written)
 
 
-def test_real_pictures_of_some_states() -> None:
-    """The seed's layout is what the labeller gets to see."""
+def test_the_layout_is_what_the_reader_gets_to_see() -> None:
     seen: list[Observation] = []
 
     class FewStates(BurgerEnvironment):
@@ -187,10 +197,12 @@ def test_real_pictures_of_some_states() -> None:
         def successor(self, state: BurgerState, instance: object) -> tuple[bool, BurgerState]:
             return False, state
 
-    def read(observations: Sequence[Observation]) -> Labels:
-        seen.extend(observations)
-        return np.zeros((1, 33), dtype=np.int8)
+    class Watching(AtomReader):
+        def read(self, space: AtomSpace, situations: Sequence[Situation]) -> Labels:
+            seen.extend(situation.look() for situation in situations)
+            return super().read(space, situations)
 
-    found = verify(FewStates(), expert_model(), read, seed=4)
+    states = SceneStates(FewStates(), layout=4)
+    found = verify([LabelledStates(states, Watching(expert_atoms))], expert_model())
     assert seen == [BurgerEnvironment().reset(seed=4)]
-    assert (found.states, found.successes) == (1, 0)
+    assert (found.states, found.total.successes, found.recall) == (1, 0, None)

@@ -13,29 +13,32 @@ from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.system_predicates import SYSTEM_PREDICATES
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import InternalError
-from skillwrapper.evaluation.benchmark.bills import learning_bill
+from skillwrapper.evaluation.benchmark.call_costs import learning_costs
 from skillwrapper.evaluation.benchmark.efficiency import efficiency_of
-from skillwrapper.evaluation.exact.state_truth import StateTruth
-from skillwrapper.evaluation.methods.method import Bench, Cell, CellSettings, Prepared
+from skillwrapper.evaluation.exact.exact_states import ExactStates
+from skillwrapper.evaluation.methods.cell import Cell
+from skillwrapper.evaluation.methods.method import CellContext, Prepared
 from skillwrapper.evaluation.methods.registry import method_of
-from skillwrapper.evaluation.problems.problems import read_problems
+from skillwrapper.evaluation.methods.settings import ExperimentSettings
+from skillwrapper.evaluation.problems.problem_files import read_problems
+from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.archive import RunArchive
 
-SETTINGS = CellSettings(iterations=2, budget=12)
+SETTINGS = ExperimentSettings(iterations=2, exploration=ExplorationSettings(budget=12))
 
 
 @cache
-def truth() -> StateTruth:
-    return StateTruth(BurgerEnvironment())
+def exact() -> ExactStates:
+    return ExactStates.of(find_domain("burger"))
 
 
 @contextmanager
 def prepared(method: str, folder: Path, source: Path | None = None) -> Iterator[Prepared]:
     cell = Cell(method, "burger", 1, "none")
-    bench = Bench(
-        cell, SETTINGS, folder, source, BurgerEnvironment(), find_domain("burger"), truth()
+    context = CellContext(
+        cell, SETTINGS, folder, source, BurgerEnvironment(), find_domain("burger"), exact()
     )
-    with method_of(method).prepare(bench) as ready:
+    with method_of(method).prepare(context) as ready:
         yield ready
 
 
@@ -52,9 +55,9 @@ def test_learned_method_leaves_a_run(ours: Path) -> None:
     with prepared("ours", ours) as again:  # resumed: nothing is executed a second time
         assert [stage.executions for stage in again.stages] == [12, 24]
         assert again.figures["executions"] == 24
-        bill = learning_bill(again.run)
-        assert bill is not None
-        assert (bill.calls > 0, bill.cost) == (True, 0.0)
+        costs = learning_costs(again.run)
+        assert costs is not None
+        assert (costs.calls > 0, costs.cost) == (True, 0.0)
         assert again.recorded is not None
 
 
@@ -66,7 +69,7 @@ def test_system_learns_from_the_same_executions(ours: Path, tmp_path: Path) -> N
         assert model.predicates == SYSTEM_PREDICATES
         assert model.operators
         assert not any(operator.absences for operator in model.operators)
-        efficiency = efficiency_of(system, truth())
+        efficiency = efficiency_of(system, find_domain("burger").domain)
     assert efficiency is not None
     assert len(efficiency.curve) == 2
     assert 0 < efficiency.changing <= 1
@@ -98,7 +101,7 @@ def test_expert_solves_a_problem(method: str, tmp_path: Path) -> None:
     )
     with prepared(method, tmp_path) as ready:
         found = ready.solver.solve(problem)
-        assert efficiency_of(ready, truth()) is None
+        assert efficiency_of(ready, find_domain("burger").domain) is None
     assert found.solved
     assert found.budget == 1
     assert (found.calls > 0) is (method == "expert-read")

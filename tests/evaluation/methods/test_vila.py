@@ -10,6 +10,7 @@ from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.evaluation.methods.vila import VilaSolver
 from skillwrapper.evaluation.problems.causes import Cause
+from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
@@ -53,9 +54,8 @@ def problem(*, impossible: bool = False) -> Problem:
 
 
 def solve(actor: ScriptedActor, asked: Problem, actions: int = 35) -> ProblemResult:
-    return VilaSolver(BurgerEnvironment(), actor, actions, lambda: len(actor.questions)).solve(
-        asked
-    )
+    world = ProblemWorld(BurgerEnvironment())
+    return VilaSolver(world, actor, actions, lambda: len(actor.questions)).solve(asked)
 
 
 def test_solved_by_acting_and_looking() -> None:

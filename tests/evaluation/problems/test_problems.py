@@ -14,12 +14,12 @@ from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.evaluation.exact.state_space import StateSpace
+from skillwrapper.evaluation.problems.problem_files import read_problems, write_problems
 from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
 from skillwrapper.evaluation.problems.problems import (
     Problem,
     ProblemClass,
     ProblemSet,
-    read_problems,
 )
 
 EASY, HARD, IMPOSSIBLE = ProblemClass
@@ -80,7 +80,7 @@ def test_same_seed_makes_the_same_problems(tmp_path: Path) -> None:
     again = ProblemGenerator(kitchen, reference, seed=5).generate(3, 3, 6)
     other = ProblemGenerator(kitchen, reference, seed=6).generate(3, 3, 6)
     assert first == again != other
-    first.write(tmp_path / "problems.yaml")
+    write_problems(first, tmp_path / "problems.yaml")
     assert read_problems(tmp_path / "problems.yaml", kitchen) == first
 
 
@@ -122,7 +122,7 @@ MISTAKES = (
 @pytest.mark.parametrize(("old", "new", "message"), MISTAKES)
 def test_mistakes_in_a_file(tmp_path: Path, old: str, new: str, message: str) -> None:
     path = tmp_path / "problems.yaml"
-    shipped().first(1, 0, 0).write(path)
+    write_problems(shipped().first(1, 0, 0), path)
     path.write_text(path.read_text().replace(old, new, 1))
     with pytest.raises(ConfigurationError, match=message) as caught:
         read_problems(path, BurgerEnvironment())
@@ -131,7 +131,7 @@ def test_mistakes_in_a_file(tmp_path: Path, old: str, new: str, message: str) ->
 
 def test_names_are_unique(tmp_path: Path) -> None:
     one = shipped().problems[0]
-    ProblemSet("burger", 0, (one, one)).write(tmp_path / "twice.yaml")
+    write_problems(ProblemSet("burger", 0, (one, one)), tmp_path / "twice.yaml")
     with pytest.raises(ConfigurationError, match="expected different names, got 'easy-01' twice"):
         read_problems(tmp_path / "twice.yaml", BurgerEnvironment())
 

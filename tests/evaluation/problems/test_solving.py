@@ -6,13 +6,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import pytest
-from sketched_kitchen import SketchedKitchen, make_problem, space
+from sketched_kitchen import SketchedKitchen, make_problem, sketched_states
 
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates
+from skillwrapper.evaluation.exact.state_readers import (
+    AtomReader,
+    Situation,
+    StateReader,
+    system_reader,
+)
 from skillwrapper.evaluation.problems.causes import Cause
+from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.evaluation.problems.problems import Problem
-from skillwrapper.evaluation.problems.readers import AtomReader, StateReader, system_reader
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.evaluation.problems.solving import ModelSolver
 from skillwrapper.grounding import AtomSpace, Labels
@@ -36,10 +43,10 @@ class Misreader:
     atom: Atom
     label: int | None = None
 
-    def read(self, atoms: AtomSpace, states: Sequence[BurgerState]) -> Labels:
-        labels = TRUTH.read(atoms, states)
-        for row, state in enumerate(states):
-            if state == self.state:
+    def read(self, atoms: AtomSpace, situations: Sequence[Situation]) -> Labels:
+        labels = TRUTH.read(atoms, situations)
+        for row, situation in enumerate(situations):
+            if situation.state == self.state:
                 column = atoms.column[self.atom]
                 labels[row, column] = 1 - labels[row, column] if self.label is None else self.label
         return labels
@@ -48,9 +55,18 @@ class Misreader:
 def solve(
     problem: Problem, model: AbstractModel | None = None, reader: StateReader = TRUTH
 ) -> ProblemResult:
-    kitchen = SketchedKitchen()
-    solver = ModelSolver(kitchen, space(), model or expert_model(), reader, TRUTH, Planner())
-    return solver.solve(problem)
+    return solver_of(model or expert_model(), reader).solve(problem)
+
+
+def solver_of(
+    model: AbstractModel,
+    reader: StateReader = TRUTH,
+    planner: Planner | None = None,
+    kitchen: SketchedKitchen | None = None,
+) -> ModelSolver:
+    world = ProblemWorld(kitchen or SketchedKitchen())
+    truth = {"default": LabelledStates(sketched_states(), TRUTH)}
+    return ModelSolver(world, model, reader, planner or Planner(), truth)
 
 
 def changed(skill: str, change: Callable[[Operator], Operator]) -> AbstractModel:
@@ -172,8 +188,8 @@ def test_planner_out_of_time() -> None:
         def search(self, problem: PlanningProblem, plans: int, seconds: float) -> SearchOutcome:
             return SearchOutcome(PlanningStatus.TIMEOUT, (), "")
 
-    kitchen, planner = SketchedKitchen(), Planner(engine=Slow(KStar.installed().program))
-    solver = ModelSolver(kitchen, space(), expert_model(), TRUTH, TRUTH, planner)
+    planner = Planner(engine=Slow(KStar.installed().program))
+    solver = solver_of(expert_model(), planner=planner)
     found = solver.solve(make_problem(CUT, START))
     assert (found.solved, found.claimed_impossible) == (False, False)
     assert found.cause is Cause.PLANNER_OUT_OF_TIME
@@ -189,17 +205,17 @@ def test_every_attempt_starts_anew() -> None:
             return super().set_state(state, seed=seed)
 
     model = changed("Cut", lambda o: replace(o, preconditions=_without(o, "on_station")))
-    solver = ModelSolver(Watched(), space(), model, TRUTH, TRUTH, Planner())
+    solver = solver_of(model, kitchen=Watched())
     found = solver.solve(make_problem(START, BurgerState(("stove",) + ("table",) * 3, cut=True)))
     assert found.solved is False
-    assert resets == [3] * 11  # once for reading, once for each of ten plans
+    assert resets == [3, 3] * 11  # reset and put there: for reading, and for each of ten plans
 
 
 def test_readers_agree_on_what_both_know() -> None:
     kitchen = SketchedKitchen()
     shared = [p for p in expert_model().predicates if p.name in {"stacked_on", "is_cut"}]
     atoms = AtomSpace(tuple(shared), kitchen.domain.objects)
-    states = (START, CUT, STACKED)
-    first, second = TRUTH.read(atoms, states), system_reader(kitchen).read(atoms, states)
+    seen = [Situation.of_state(kitchen, state) for state in (START, CUT, STACKED)]
+    first, second = TRUTH.read(atoms, seen), system_reader(kitchen).read(atoms, seen)
     assert (first == second).all()
     assert first.sum() == 2

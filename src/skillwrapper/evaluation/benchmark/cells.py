@@ -10,17 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.errors import RunFolderError
-from skillwrapper.evaluation.benchmark.bills import learning_bill, solving_bill
+from skillwrapper.evaluation.benchmark.call_costs import learning_costs, solving_costs
 from skillwrapper.evaluation.benchmark.efficiency import efficiency_of
 from skillwrapper.evaluation.exact.learning_curves import write_curve
-from skillwrapper.evaluation.exact.state_truth import StateTruth
-from skillwrapper.evaluation.exact.verification import verify_labels
-from skillwrapper.evaluation.methods.method import Bench, Cell, Method, Prepared
+from skillwrapper.evaluation.exact.verification import verify
+from skillwrapper.evaluation.methods.cell import Cell
+from skillwrapper.evaluation.methods.method import CellContext, Method, Prepared
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.files.json_documents import read_lines
 from skillwrapper.files.writing import append_line, write_json
-from skillwrapper.grounding import AtomSpace
 
 RESULT = "result.json"
 """Its presence means that the cell is finished."""
@@ -35,11 +34,12 @@ class CellResult:
     Attributes:
         cell: the cell.
         problems: one result for each problem.
-        exact: precision, recall, ... of the final model on all states; None without a model.
+        exact: precision, recall, ... of the final model on all states; None without a model, or
+            where states cannot be listed or their predicates not read without error.
         learning: what learning took and brought; empty for methods that do not learn.
         efficiency: what executions were worth; None for methods that execute none to learn.
         seconds: time of everything, since the cell was last begun.
-        bills: what model calls took, for ``learning`` (None for methods that ask nothing then) and
+        costs: what model calls took, for ``learning`` (None for methods that ask nothing then) and
             ``solving``.
     """
 
@@ -49,7 +49,7 @@ class CellResult:
     learning: dict[str, Any]
     efficiency: dict[str, Any] | None
     seconds: float
-    bills: dict[str, dict[str, Any] | None] = field(default_factory=dict)
+    costs: dict[str, dict[str, Any] | None] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data with the attributes as keys."""
@@ -77,7 +77,7 @@ class CellResult:
 
 def run_cell(
     method: Method,
-    bench: Bench,
+    context: CellContext,
     problems: ProblemSet,
     solved: Callable[[ProblemResult], None] = lambda result: None,
 ) -> CellResult:
@@ -85,30 +85,31 @@ def run_cell(
 
     Args:
         method: the method of the cell.
-        bench: what it gets.
+        context: what it gets.
         problems: what it is to solve.
         solved: told of every result as it comes.
     """
     started = time.monotonic()
-    with method.prepare(bench) as prepared:
+    with method.prepare(context) as prepared:
         learning = _learning(prepared, time.monotonic() - started)
-        exact = _verify(prepared, bench.truth)
-        efficiency = efficiency_of(prepared, bench.truth)
-        if efficiency is not None and prepared.run is not None:
+        exact = _verify(prepared)
+        efficiency = efficiency_of(prepared, context.environment.domain)
+        if efficiency is not None and efficiency.curve and prepared.run is not None:
             write_curve(prepared.run, efficiency.curve)
-        results = _solve_all(prepared, bench.folder / _PROBLEMS, problems, solved)
-    learned = learning_bill(prepared.run)
-    asked = solving_bill(prepared.calls, sum(r.calls for r in results), bench.settings.model)
+        results = _solve_all(prepared, context.folder / _PROBLEMS, problems, solved)
+    learned = learning_costs(prepared.run)
+    model = context.settings.model.name
+    asked = solving_costs(prepared.calls, sum(r.calls for r in results), model)
     result = CellResult(
-        cell=bench.cell,
+        cell=context.cell,
         problems=results,
         exact=exact,
         learning=learning,
         efficiency=efficiency.to_json() if efficiency else None,
         seconds=time.monotonic() - started,
-        bills={"learning": learned.to_json() if learned else None, "solving": asked.to_json()},
+        costs={"learning": learned.to_json() if learned else None, "solving": asked.to_json()},
     )
-    write_json(bench.folder / RESULT, result.to_json())
+    write_json(context.folder / RESULT, result.to_json())
     return result
 
 
@@ -120,13 +121,11 @@ def _learning(prepared: Prepared, seconds: float) -> dict[str, Any]:
     return {**prepared.figures, "successes": successes, "seconds": seconds}
 
 
-def _verify(prepared: Prepared, truth: StateTruth) -> dict[str, Any] | None:
-    if not prepared.stages or prepared.label_all is None:
+def _verify(prepared: Prepared) -> dict[str, Any] | None:
+    if not prepared.stages or not prepared.exact:
         return None
     model = prepared.stages[-1].model
-    space = AtomSpace(model.predicates, truth.environment.domain.objects)
-    labels = prepared.label_all(space)
-    found = verify_labels(truth.environment, truth.space, model, labels).to_json()
+    found = verify(prepared.exact, model).to_json()
     return {**found, "predicates": len(model.predicates), "operators": len(model.operators)}
 
 

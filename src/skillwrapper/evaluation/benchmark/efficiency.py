@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from skillwrapper.evaluation.exact.learning_curves import CurvePoint, area_under, learning_curve
-from skillwrapper.evaluation.exact.state_truth import StateTruth
 from skillwrapper.evaluation.methods.method import Prepared
 from skillwrapper.exploration.coverage import PairCounts
 from skillwrapper.learning.clusters import cluster_successes
@@ -29,16 +28,17 @@ class Efficiency:
     """What executions were worth.
 
     Attributes:
-        curve: a point for every iteration.
+        curve: a point for every iteration; empty where there are no exact figures.
         area: area under recall over executions, as a share of what an all-knowing learner has;
-            recall is 0 before the first iteration ends, and constant between two ends.
+            recall is 0 before the first iteration ends, and constant between two ends. None where
+            there are no exact figures.
         changing: share of executions after which relearning, with the final vocabulary, gives
             other operators than before.
         pairs_covered: share of pairs of skill instances that were tried one after the other.
     """
 
     curve: tuple[CurvePoint, ...]
-    area: float
+    area: float | None
     changing: float
     pairs_covered: float
 
@@ -47,12 +47,11 @@ class Efficiency:
         return {**vars(self), "curve": [vars(point) for point in self.curve]}
 
 
-def efficiency_of(prepared: Prepared, truth: StateTruth) -> Efficiency | None:
+def efficiency_of(prepared: Prepared, domain: Domain) -> Efficiency | None:
     """The efficiency of a method; None for one that executes nothing to learn."""
-    if not prepared.episodes or prepared.label_all is None or prepared.recorded is None:
+    if not prepared.episodes or prepared.recorded is None:
         return None
-    curve = learning_curve(prepared.stages, truth.space, prepared.label_all)
-    domain = truth.environment.domain
+    curve = learning_curve(prepared.stages, prepared.exact) if prepared.exact else ()
     vocabulary = prepared.stages[-1].model.predicates
     pairs = PairCounts(domain.skill_instances)
     for episode in prepared.episodes:
@@ -70,8 +69,8 @@ def share_changing(
 ) -> float:
     """Share of executions that change what is learned with the final vocabulary.
 
-    Operators are learned as they are before they are mended (DESIGN.md D5): mending looks at all
-    predictions, which takes too long after every single execution.
+    Operators are learned as they are before they are mended (docs/semantics.md, D5): mending looks
+    at all predictions, which takes too long after every single execution.
     """
     done, changes = RecordedTransitions(domain), 0
     labeller = Labeller(done, recorded)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import fcntl
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,16 +20,15 @@ import yaml
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import RunFolderError
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
-from skillwrapper.evaluation.benchmark.experiments import Experiment
-from skillwrapper.evaluation.benchmark.origins import Origin
-from skillwrapper.evaluation.methods.method import Cell
-from skillwrapper.evaluation.problems.problems import ProblemSet, read_problems
+from skillwrapper.evaluation.benchmark.experiments import CommandRecord, Experiment
+from skillwrapper.evaluation.methods.cell import Cell, domain_key
+from skillwrapper.evaluation.problems.problem_files import read_problems, write_problems
+from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.published import PublishedResults, published_figures
 from skillwrapper.files.json_documents import read_lines
-from skillwrapper.files.writing import append_line, write_atomically
+from skillwrapper.files.writing import append_line, is_leftover, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.runs.provenance import provenance
-from skillwrapper.world.capabilities import Enumerable, require
 
 _EXPERIMENT = "experiment.yaml"
 _RUNS = "runs.jsonl"
@@ -57,16 +56,13 @@ class ExperimentFolder:
         sets = {name: _choose(experiment, name) for name in experiment.domains}
         if cls.is_one(path):
             folder._compare(experiment, sets)
-            return folder
-        if path.exists() and (not path.is_dir() or any(path.iterdir())):
-            raise RunFolderError(
-                f"{path} is not empty and holds no experiment; choose another --out, "
-                "nothing was changed"
-            )
+        else:
+            _check_empty(path)
+            content = {"experiment": experiment.model_dump(mode="json"), "made_with": provenance()}
+            write_atomically(path / _EXPERIMENT, yaml.safe_dump(content, sort_keys=False))
         for name, problems in sets.items():
-            problems.write(folder.problem_file(name))
-        content = {"experiment": experiment.model_dump(mode="json"), "made_with": provenance()}
-        write_atomically(path / _EXPERIMENT, yaml.safe_dump(content, sort_keys=False))
+            if problems.problems and not folder.problem_file(name).exists():
+                write_problems(problems, folder.problem_file(name))
         return folder
 
     @classmethod
@@ -101,10 +97,10 @@ class ExperimentFolder:
         if any(not self.is_finished(cell) for cell in self.experiment().cells):
             append_line(self.path / _RUNS, {"command": command, "made_with": provenance()})
 
-    def runs(self) -> tuple[Origin, ...]:
+    def runs(self) -> tuple[CommandRecord, ...]:
         """The commands that ran cells, in order of time."""
         lines = read_lines(self.path / _RUNS)
-        return tuple(Origin(line["command"], line["made_with"]) for line in lines)
+        return tuple(CommandRecord(line["command"], line["made_with"]) for line in lines)
 
     def published(self) -> dict[str, PublishedResults]:
         """What others published of the domains, for the same methods."""
@@ -114,11 +110,15 @@ class ExperimentFolder:
 
     def problem_file(self, domain: str) -> Path:
         """Where the problems of a domain stand."""
-        return self.path / "problems" / f"{domain}.yaml"
+        return self.path / "problems" / f"{domain_key(domain)}.yaml"
 
     def problems(self, domain: str) -> ProblemSet:
-        """The problems of a domain."""
-        return read_problems(self.problem_file(domain), enumerable_environment(domain))
+        """The problems of a domain; an empty set if there are none."""
+        package = find_domain(domain)
+        if not self.problem_file(domain).exists():
+            return ProblemSet(package.domain.name, 0, ())
+        with closing(package.make_environment()) as environment:
+            return read_problems(self.problem_file(domain), environment)
 
     def cell(self, cell: Cell) -> Path:
         """The folder of a cell."""
@@ -168,24 +168,27 @@ class ExperimentFolder:
                 f"{theirs[key]!r} now); choose another --out"
             )
         for name, problems in sets.items():
-            if self.problems(name) != problems:
+            if self.problem_file(name).exists() and self.problems(name) != problems:
                 raise RunFolderError(
                     f"{self.path} holds another experiment (other problems of {name}); "
                     "choose another --out"
                 )
 
 
-def enumerable_environment(domain: str) -> Enumerable:
-    """A new environment of a domain that can list its states.
-
-    Raises:
-        ConfigurationError: if it cannot.
-    """
-    return require(find_domain(domain).make_environment(), Enumerable, "an experiment")
+def _check_empty(path: Path) -> None:
+    """What a crash left of writing the first file does not count."""
+    if path.exists() and (not path.is_dir() or any(not is_leftover(p) for p in path.iterdir())):
+        raise RunFolderError(
+            f"{path} is not empty and holds no experiment; choose another --out, "
+            "nothing was changed"
+        )
 
 
 def _choose(experiment: Experiment, domain: str) -> ProblemSet:
-    choice = experiment.problems
-    path = Path(choice.file) if choice.file else find_domain(domain).problems
-    problems = read_problems(path, enumerable_environment(domain))
+    choice, package = experiment.problems, find_domain(domain)
+    if not (choice.file or package.has("problems")):
+        return ProblemSet(package.domain.name, 0, ())
+    path = Path(choice.file) if choice.file else package.problems
+    with closing(package.make_environment()) as environment:
+        problems = read_problems(path, environment)
     return problems.first(choice.easy, choice.hard, choice.impossible)

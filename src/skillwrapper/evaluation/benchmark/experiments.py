@@ -1,18 +1,17 @@
-"""Experiments as files: which methods, on what, how often, and with what errors of perception."""
+"""An experiment: which methods, on what, how often, and with what errors of perception."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from pathlib import Path
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-from skillwrapper.domains.discovery import bundled_names, find_domain
-from skillwrapper.embedded.noise import noise_profile, profile_names
-from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
-from skillwrapper.evaluation.methods.method import Cell, CellSettings
+from skillwrapper.domains.discovery import bundled_names
+from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.registry import METHODS
-from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.evaluation.methods.settings import ExperimentSettings
 
 
 class ProblemChoice(BaseModel):
@@ -56,7 +55,7 @@ class Experiment(BaseModel):
     domains: tuple[str, ...] = Field(default_factory=bundled_names, min_length=1)
     seeds: tuple[int, ...] = Field(default=(0,), min_length=1)
     noise: tuple[str, ...] = Field(default=("none",), min_length=1)
-    settings: CellSettings = Field(default_factory=CellSettings)
+    settings: ExperimentSettings = Field(default_factory=ExperimentSettings)
     problems: ProblemChoice = Field(default_factory=ProblemChoice)
 
     @field_validator("noise", mode="before")
@@ -89,74 +88,25 @@ def _noise_name(rate: float) -> str:
     return f"{rate:g}" if rate else "none"
 
 
-def read_experiment(path: Path) -> Experiment:
-    """Read an experiment file.
+@dataclass(frozen=True)
+class CommandRecord:
+    """A command that ran cells of an experiment.
 
-    Raises:
-        ConfigurationError: with file, line, what was expected and what came.
-        UnknownNameError: for a method, domain or noise that does not exist, with the nearest one.
+    Attributes:
+        command: as it was given.
+        made_with: versions and commit, as ``runs.provenance`` tells them.
     """
-    document = YamlDocument.read(path)
-    experiment = document.validate(Experiment)
-    _check_names(document, "methods", "method", experiment.methods, METHODS)
-    for number, domain in enumerate(experiment.domains):
-        _check_domain(domain, document.place(("domains", number)))
-    for key in ("methods", "domains", "seeds", "noise"):
-        _check_different(document, key, getattr(experiment, key))
-    for number, name in enumerate(experiment.noise):
-        try:
-            noise_profile(name)
-        except UnknownNameError as error:
-            place = document.place(("noise", number))
-            raise UnknownNameError("noise", name, profile_names(), place) from error
-    _check_sources(document, experiment)
-    return _with_problem_file(document, experiment)
 
+    command: str
+    made_with: Mapping[str, Any]
 
-def _check_names(
-    document: YamlDocument, key: str, kind: str, names: tuple[str, ...], known: Collection[str]
-) -> None:
-    for number, name in enumerate(names):
-        if name not in known:
-            raise UnknownNameError(kind, name, known, document.place((key, number)))
-
-
-def _check_domain(reference: str, where: str) -> None:
-    try:
-        find_domain(reference)
-    except UserError as error:
-        raise ConfigurationError(f"{where}: {error}") from error
-
-
-def _check_different(document: YamlDocument, key: str, values: tuple[object, ...]) -> None:
-    for number, value in enumerate(values):
-        if value in values[:number]:
-            where = document.place((key, number))
-            raise ConfigurationError(f"{where}: expected different {key}, got {value!r} twice")
-
-
-def _check_sources(document: YamlDocument, experiment: Experiment) -> None:
-    for number, name in enumerate(experiment.methods):
-        source = METHODS[name].source
-        if source is not None and source not in experiment.methods:
-            raise ConfigurationError(
-                f"{document.place(('methods', number))}: '{name}' learns from what '{source}' "
-                f"executes; expected '{source}' among the methods, add it"
-            )
-
-
-def _with_problem_file(document: YamlDocument, experiment: Experiment) -> Experiment:
-    """The same with an absolute path, so that the folder of results can stand anywhere."""
-    name = experiment.problems.file
-    if name is None:
-        return experiment
-    path = (document.path.parent / name).resolve()
-    where = document.place(("problems", "file"))
-    if not path.is_file():
-        raise ConfigurationError(f"{where}: expected a file of problems, found none at {path}")
-    if len(experiment.domains) > 1:
-        raise ConfigurationError(
-            f"{where}: one file of problems is for one domain, got {len(experiment.domains)}"
-        )
-    problems = experiment.problems.model_copy(update={"file": str(path)})
-    return experiment.model_copy(update={"problems": problems})
+    @property
+    def code(self) -> str:
+        """Version and commit in words."""
+        made = self.made_with
+        commit = made.get("commit")
+        where = f"commit {commit[:12]}" if commit else "no commit known"
+        changed = " with uncommitted changes" if made.get("changed") else ""
+        packages = made.get("packages") or {}
+        versions = [f"Python {made.get('python')}", *(f"{n} {v}" for n, v in packages.items() if v)]
+        return f"skillwrapper {made.get('skillwrapper')}, {where}{changed} ({', '.join(versions)})"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import statistics
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -12,7 +11,7 @@ from typing import Any, Final
 
 from skillwrapper.evaluation.benchmark.cells import CellResult
 from skillwrapper.evaluation.problems.problems import ProblemClass
-from skillwrapper.evaluation.problems.results import ProblemResult
+from skillwrapper.evaluation.problems.results import Judge, ProblemResult
 
 
 @dataclass(frozen=True)
@@ -22,7 +21,7 @@ class Spread:
     Attributes:
         mean: arithmetic mean.
         std: sample standard deviation; 0 for a single seed.
-        count: number of seeds.
+        count: number of seeds that have the figure.
     """
 
     mean: float
@@ -76,9 +75,9 @@ def _efficiency(key: str) -> Figure:
     return lambda cell: cell.efficiency[key] if cell.efficiency else None
 
 
-def _bill(part: str, key: str) -> Figure:
+def _cost(part: str, key: str) -> Figure:
     def figure(cell: CellResult) -> float | None:
-        found = cell.bills.get(part)
+        found = cell.costs.get(part)
         return found[key] if found else None
 
     return figure
@@ -90,6 +89,11 @@ def _verdict(name: str) -> Figure:
         return None if verdict is None else 100 * float(verdict)
 
     return figure
+
+
+def _vocabulary(cell: CellResult) -> float | None:
+    found = cell.exact.get("vocabulary") if cell.exact else None
+    return found["share"] if found else None
 
 
 def _falsely_impossible(cell: CellResult) -> float | None:
@@ -116,6 +120,7 @@ FIGURES: Final[Mapping[str, Figure]] = MappingProxyType(
         "sound": _verdict("sound"),
         "complete": _verdict("complete"),
         "suitable": _verdict("suitable"),
+        "vocabulary": _vocabulary,
         "predicates": _exact("predicates"),
         "operators": _exact("operators"),
         "lemma1_violations": _learning("lemma1_violations"),
@@ -124,8 +129,8 @@ FIGURES: Final[Mapping[str, Figure]] = MappingProxyType(
         "unresolved": _learning("unresolved"),
         "learning_executions": _learning("executions"),
         "learning_successes": _learning("successes"),
-        "learning_calls": _bill("learning", "calls"),
-        "learning_cost": _bill("learning", "cost"),
+        "learning_calls": _cost("learning", "calls"),
+        "learning_cost": _cost("learning", "cost"),
         "learning_seconds": _learning("seconds"),
         "area": _efficiency("area"),
         "changing": _efficiency("changing"),
@@ -133,7 +138,7 @@ FIGURES: Final[Mapping[str, Figure]] = MappingProxyType(
         "executions": lambda cell: float(sum(p.executions for p in cell.problems)),
         "successes": lambda cell: float(sum(p.successes for p in cell.problems)),
         "calls": lambda cell: float(sum(p.calls for p in cell.problems)),
-        "cost": _bill("solving", "cost"),
+        "cost": _cost("solving", "cost"),
         "planning_easy": _planning_time(EASY),
         "planning_hard": _planning_time(HARD),
         "planning_impossible": _planning_time(IMPOSSIBLE),
@@ -151,6 +156,12 @@ COSTS: Final[Mapping[str, str]] = MappingProxyType(
 cost that is unknown for one seed is unknown for the method: the others' mean would be too low."""
 
 
+CHECKED: Final = frozenset(
+    {"precision", "recall", "effect_accuracy", "sound", "complete", "suitable", "vocabulary"}
+)
+"""Figures of models that are checked in every state; undefined where there is nothing to count."""
+
+
 @dataclass(frozen=True)
 class MethodFigures:
     """A method on one domain with one noise.
@@ -162,6 +173,8 @@ class MethodFigures:
         seeds: the seeds whose cells are finished.
         figures: by name, see ``FIGURES``; None if there is none.
         causes: how often each cause kept a problem from being solved, over all seeds.
+        is_checked: whether the models were checked in every state.
+        judged_by_model: how many problems, over all seeds, only the model itself could judge.
     """
 
     method: str
@@ -170,6 +183,8 @@ class MethodFigures:
     seeds: tuple[int, ...]
     figures: Mapping[str, Spread | None]
     causes: Mapping[str, int]
+    is_checked: bool = False
+    judged_by_model: int = 0
 
     @classmethod
     def of(cls, cells: Sequence[CellResult]) -> MethodFigures:
@@ -183,11 +198,17 @@ class MethodFigures:
             seeds=tuple(c.cell.seed for c in cells),
             figures={name: _spread(name, cells) for name in FIGURES},
             causes=dict(sorted(causes.items())),
+            is_checked=any(c.exact is not None for c in cells),
+            judged_by_model=sum(p.judge is Judge.MODEL for c in cells for p in c.problems),
         )
 
     def is_unknown(self, name: str) -> bool:
         """Whether there is such a figure, but nobody knows it."""
         return self.figures[name] is None and self.figures.get(COSTS.get(name, "")) is not None
+
+    def is_undefined(self, name: str) -> bool:
+        """Whether the model was checked in every state, but this figure is of nothing."""
+        return self.figures[name] is None and self.is_checked and name in CHECKED
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: each figure an object with ``mean`` and ``std``, or null."""
@@ -199,6 +220,7 @@ class MethodFigures:
             "seeds": list(self.seeds),
             **spreads,
             "causes": dict(self.causes),
+            "judged_by_model": self.judged_by_model,
         }
 
 
@@ -209,75 +231,6 @@ def group_cells(cells: Iterable[CellResult]) -> dict[tuple[str, str], dict[str, 
         methods = groups.setdefault((result.cell.domain, result.cell.noise), {})
         methods.setdefault(result.cell.method, []).append(result)
     return groups
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Two methods on the same problems with the same seeds.
-
-    Attributes:
-        method: one method.
-        other: what it is compared with.
-        domain: the domain.
-        noise: the noise.
-        pairs: number of problems times seeds that both tried.
-        wins: solved by the one and not by the other.
-        losses: the other way round.
-        difference: of the percentage solved, per seed.
-        p_value: exact two-sided McNemar test of wins against losses; takes the pairs as
-            independent, which problems of one learned model are only in part.
-    """
-
-    method: str
-    other: str
-    domain: str
-    noise: str
-    pairs: int
-    wins: int
-    losses: int
-    difference: Spread | None
-    p_value: float
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        difference = self.difference.to_json() if self.difference else None
-        return {**vars(self), "difference": difference, "p_value": round(self.p_value, 6)}
-
-
-def compare(first: Sequence[CellResult], second: Sequence[CellResult]) -> Comparison:
-    """Compare two methods, each with at least one cell."""
-    theirs = {c.cell.seed: {p.problem: p.solved for p in c.problems} for c in second}
-    wins = losses = pairs = 0
-    differences: list[float | None] = []
-    for cell in first:
-        other = theirs.get(cell.cell.seed, {})
-        both = [(p.solved, other[p.problem]) for p in cell.problems if p.problem in other]
-        pairs += len(both)
-        wins += sum(mine and not its for mine, its in both)
-        losses += sum(its and not mine for mine, its in both)
-        if both:
-            differences.append(
-                100 * (sum(m for m, _ in both) - sum(i for _, i in both)) / len(both)
-            )
-    one, two = first[0].cell, second[0].cell
-    return Comparison(
-        one.method,
-        two.method,
-        one.domain,
-        one.noise,
-        pairs,
-        wins,
-        losses,
-        Spread.of(differences),
-        mcnemar(wins, losses),
-    )
-
-
-def mcnemar(wins: int, losses: int) -> float:
-    """Exact two-sided p-value that wins and losses are equally likely."""
-    total = wins + losses
-    tail = sum(math.comb(total, k) for k in range(min(wins, losses) + 1))
-    return float(min(1.0, 2 * tail / 2**total))
 
 
 def _spread(name: str, cells: Sequence[CellResult]) -> Spread | None:

@@ -13,6 +13,8 @@ import numpy as np
 from skillwrapper.errors import MissingDependencyError
 from skillwrapper.evaluation.benchmark.cells import CellResult
 from skillwrapper.evaluation.benchmark.figures import FIGURES, Spread, group_cells
+from skillwrapper.evaluation.benchmark.tables import place
+from skillwrapper.evaluation.methods.cell import domain_key
 from skillwrapper.evaluation.methods.registry import METHODS
 
 _INCHES = (7.5, 4.5)
@@ -37,18 +39,18 @@ def plot_experiment(cells: Sequence[CellResult], folder: Path) -> tuple[Path, ..
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for (domain, noise), by_method in group_cells(cells).items():
-        where = f"{domain}, noise {noise}"
-        stem = f"{domain}-{noise}"
+        where, stem = place(domain, noise), f"{domain_key(domain)}-{noise}"
         curves = _learning_curves(figure_of, by_method, where)
         if curves is not None:
             written.append(_save(curves, folder / f"learning-{stem}.png"))
-        matrix = _problem_matrix(figure_of, by_method, where)
-        written.append(_save(matrix, folder / f"problems-{stem}.png"))
+        if any(cell.problems for found in by_method.values() for cell in found):
+            matrix = _problem_matrix(figure_of, by_method, where)
+            written.append(_save(matrix, folder / f"problems-{stem}.png"))
     for domain in dict.fromkeys(c.cell.domain for c in cells):
         mine = [c for c in cells if c.cell.domain == domain]
-        noise_curves = _noise_curves(figure_of, mine, domain)
+        noise_curves = _noise_curves(figure_of, mine, domain_key(domain))
         if noise_curves is not None:
-            written.append(_save(noise_curves, folder / f"noise-{domain}.png"))
+            written.append(_save(noise_curves, folder / f"noise-{domain_key(domain)}.png"))
     return tuple(written)
 
 
@@ -88,7 +90,10 @@ def _learning_curves(
 
     Recall alone would praise operators without preconditions, which "apply" everywhere.
     """
-    learners = [(n, [c for c in cells if c.efficiency]) for n, cells in _ordered(by_method)]
+    learners = [
+        (n, [c for c in cells if c.efficiency and c.efficiency["curve"]])
+        for n, cells in _ordered(by_method)
+    ]
     learners = [(name, cells) for name, cells in learners if cells]
     if not learners:
         return None
@@ -111,7 +116,9 @@ def _band(cells: Sequence[CellResult], key: str) -> tuple[Any, Any, Any]:
     """Executions, mean and standard deviation of a figure of the learning curves."""
     curves = [cell.efficiency["curve"] for cell in cells if cell.efficiency]
     length = min(map(len, curves))
-    values = np.array([[point[key] for point in curve[:length]] for curve in curves])
+    values = np.array(
+        [[point[key] for point in curve[:length]] for curve in curves], dtype=np.float64
+    )  # None becomes nan, a gap
     x = np.array([point["executions"] for point in curves[0][:length]])
     std = values.std(axis=0, ddof=1) if len(curves) > 1 else np.zeros(length)
     return x, values.mean(axis=0), std

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.errors import ConfigurationError, MissingDependencyError
-from skillwrapper.evaluation.benchmark.workers import CellOutcome, Task, Workers, work
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.benchmark.running import CellOutcome, Task, Workers, work
+from skillwrapper.evaluation.methods.cell import Cell
 
 _RETRIES = 3
 """How often Ray runs a cell again whose worker was killed."""

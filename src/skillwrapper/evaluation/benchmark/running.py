@@ -1,12 +1,63 @@
-"""Running an experiment: every cell once, those first that others learn from."""
+"""Running an experiment: every cell once, here or in several processes, sources first."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import multiprocessing
+import traceback
+from collections import deque
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Protocol
 
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.errors import InternalError, SkillWrapperError
+from skillwrapper.evaluation.benchmark.cells import run_cell
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
-from skillwrapper.evaluation.benchmark.workers import CellOutcome, Workers
-from skillwrapper.evaluation.methods.method import Cell
+from skillwrapper.evaluation.exact.exact_states import ExactStates
+from skillwrapper.evaluation.methods.cell import Cell, domain_key
+from skillwrapper.evaluation.methods.method import CellContext
+from skillwrapper.evaluation.methods.registry import METHODS
+from skillwrapper.files.writing import write_atomically
+
+ERROR = "error.txt"
+"""Why a cell failed, in its folder; gone once it succeeds."""
+
+_RETRIES = 3
+"""How often a cell is tried again whose process was killed."""
+
+
+@dataclass(frozen=True)
+class CellOutcome:
+    """A cell has ended.
+
+    Attributes:
+        cell: the cell.
+        error: why it failed, in one line; empty if it did not.
+    """
+
+    cell: Cell
+    error: str = ""
+
+
+Task = Callable[[Path, Cell], CellOutcome]
+"""Runs one cell of the experiment in a folder."""
+
+
+class Workers(Protocol):
+    """Run cells, several at a time."""
+
+    def submit(self, cell: Cell) -> None:
+        """Take a cell on; returns at once."""
+        ...
+
+    def next(self) -> CellOutcome:
+        """Wait for the next cell to end."""
+        ...
 
 
 def run_experiment(
@@ -48,3 +99,132 @@ def run_experiment(
             ended(outcomes[-1])
             running -= 1
     return tuple(outcomes)
+
+
+def work(path: Path, cell: Cell) -> CellOutcome:
+    """Run one cell; whatever goes wrong in it ends up in its folder and in the outcome."""
+    folder = ExperimentFolder(path)
+    error_file = folder.cell(cell) / ERROR
+    try:
+        _run(folder, cell)
+    except SkillWrapperError as error:
+        write_atomically(error_file, f"{error}\n\n{traceback.format_exc()}")
+        return CellOutcome(cell, str(error))
+    except Exception as error:  # one broken cell must not take the others along
+        write_atomically(error_file, traceback.format_exc())
+        return CellOutcome(cell, f"{type(error).__name__}: {error}")
+    error_file.unlink(missing_ok=True)
+    return CellOutcome(cell)
+
+
+def _run(folder: ExperimentFolder, cell: Cell) -> None:
+    experiment = folder.experiment()
+    source = experiment.source_of(cell)
+    package = find_domain(cell.domain)
+    with closing(package.make_environment()) as environment:
+        context = CellContext(
+            cell=cell,
+            settings=experiment.settings,
+            folder=folder.cell(cell),
+            source=folder.cell(source) if source else None,
+            environment=environment,
+            package=package,
+            exact=_exact_states(cell.domain, folder.truth / domain_key(cell.domain)),
+        )
+        run_cell(METHODS[cell.method], context, folder.problems(cell.domain))
+
+
+# All pictures of a domain, drawn and read, serve every cell that a process runs.
+@lru_cache(maxsize=2)
+def _exact_states(domain: str, folder: Path) -> ExactStates:
+    return ExactStates.of(find_domain(domain), folder)
+
+
+class OwnProcess:
+    """Runs cells one after the other, here.
+
+    Args:
+        path: folder of the experiment.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._cells: deque[Cell] = deque()
+
+    def submit(self, cell: Cell) -> None:
+        """Take a cell on."""
+        self._cells.append(cell)
+
+    def next(self) -> CellOutcome:
+        """Run the next cell."""
+        return work(self._path, self._cells.popleft())
+
+
+class Processes:
+    """Runs cells in processes of their own; a killed process costs its cell another attempt.
+
+    Args:
+        path: folder of the experiment.
+        count: how many at a time.
+        task: runs a cell; importable by its name.
+    """
+
+    def __init__(self, path: Path, count: int, task: Task = work) -> None:
+        self._path, self._count, self._task = path, count, task
+        self._pool = self._make_pool()
+        self._futures: dict[Future[CellOutcome], Cell] = {}
+        self._failures: dict[Cell, int] = {}
+
+    def submit(self, cell: Cell) -> None:
+        """Take a cell on."""
+        try:
+            self._futures[self._pool.submit(self._task, self._path, cell)] = cell
+        except BrokenProcessPool:
+            self._restart()
+            self._futures[self._pool.submit(self._task, self._path, cell)] = cell
+
+    def next(self) -> CellOutcome:
+        """Wait for the next cell to end."""
+        while True:
+            done = next(iter(wait(self._futures, return_when=FIRST_COMPLETED).done))
+            cell = self._futures.pop(done)
+            try:
+                return done.result()
+            except BrokenProcessPool:
+                self._failures[cell] = self._failures.get(cell, 0) + 1
+                if self._failures[cell] > _RETRIES:
+                    return CellOutcome(cell, "its process was killed again and again")
+                self.submit(cell)
+
+    def close(self) -> None:
+        """Let no further cell begin, and wait for those that run."""
+        self._pool.shutdown(cancel_futures=True)
+
+    def _restart(self) -> None:
+        self._pool.shutdown(wait=False)
+        self._pool = self._make_pool()
+
+    def _make_pool(self) -> ProcessPoolExecutor:
+        # Spawned, not forked: a forked child would share the threads' locks of its parent.
+        context = multiprocessing.get_context("spawn")
+        return ProcessPoolExecutor(self._count, mp_context=context)
+
+
+@contextmanager
+def open_workers(path: Path, count: int) -> Iterator[Workers]:
+    """Workers on this machine.
+
+    Args:
+        path: folder of the experiment.
+        count: how many cells at a time, at least 1.
+    """
+    if count < 1:
+        raise InternalError(f"expected at least 1 worker, got {count}; please report it")
+    if count == 1:
+        yield OwnProcess(path)
+        return
+    processes = Processes(path, count)
+    try:
+        yield processes
+    finally:
+        processes.close()

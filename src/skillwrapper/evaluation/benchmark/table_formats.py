@@ -7,16 +7,17 @@ import io
 import re
 
 from skillwrapper.evaluation.benchmark.figures import FIGURES
-from skillwrapper.evaluation.benchmark.tables import Report, Table
+from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
+from skillwrapper.evaluation.benchmark.tables import Table
 
 _LATEX_SPECIAL = re.compile(r"[&%$#_{}]")
 
 
-def to_markdown(report: Report) -> str:
+def to_markdown(summary: ExperimentSummary) -> str:
     """All tables, each under a heading."""
-    parts = [f"# {report.experiment.name}", report.experiment.description, report.note]
-    parts.append("\n".join(f"- {label}: {text}" for label, text in report.made))
-    for table in report.tables():
+    parts = [f"# {summary.experiment.name}", summary.experiment.description, summary.note]
+    parts.append("\n".join(f"- {label}: {text}" for label, text in summary.made))
+    for table in summary.tables():
         parts.append(f"## {table.title}")
         ruler = ("---", *("---:" for _ in table.headings[1:]))
         lines = (table.headings, ruler, *table.rows)
@@ -25,21 +26,21 @@ def to_markdown(report: Report) -> str:
     return "\n\n".join(filter(None, parts)) + "\n"
 
 
-def to_latex(report: Report) -> str:
+def to_latex(summary: ExperimentSummary) -> str:
     """All tables as ``tabular`` with the rules of the package ``booktabs``."""
-    made = (f"% {label}: {text}" for label, text in report.made)
-    parts = ["\n".join((f"% {report.experiment.name}: {report.note}", *made))]
-    parts += [_latex_table(table) for table in report.tables()]
+    made = (f"% {label}: {text}" for label, text in summary.made)
+    parts = ["\n".join((f"% {summary.experiment.name}: {summary.note}", *made))]
+    parts += [_latex_table(table) for table in summary.tables()]
     return "\n\n".join(parts) + "\n"
 
 
-def to_csv(report: Report) -> str:
+def to_csv(summary: ExperimentSummary) -> str:
     """One line for each method, domain and noise, two columns for each figure."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     columns = [f"{name}_{part}" for name in FIGURES for part in ("mean", "std")]
     writer.writerow(["method", "domain", "noise", "seeds", *columns])
-    for method in report.methods:
+    for method in summary.methods:
         values: list[float | str] = []
         for name in FIGURES:
             spread = method.figures[name]

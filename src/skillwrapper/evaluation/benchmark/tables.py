@@ -1,30 +1,19 @@
-"""The tables of an experiment: what stands in them."""
+"""The tables of an experiment: what stands in them, and what must be said with them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Final
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
-from skillwrapper.evaluation.benchmark.cells import CellResult
-from skillwrapper.evaluation.benchmark.experiments import Experiment
-from skillwrapper.evaluation.benchmark.figures import (
-    Comparison,
-    MethodFigures,
-    Spread,
-    compare,
-    group_cells,
-)
-from skillwrapper.evaluation.benchmark.origins import Origin
+from skillwrapper.evaluation.benchmark.comparisons import PairedComparison
+from skillwrapper.evaluation.benchmark.figures import CHECKED, MethodFigures, Spread
+from skillwrapper.evaluation.methods.cell import domain_key
+from skillwrapper.evaluation.methods.method import Shares
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.published import PublishedMethod, PublishedResults
 
-MAIN_METHOD: Final = "ours"
-"""What the others are compared with, if it takes part."""
-
-_EMBEDDED_NOTE = (
-    "Made with the embedded model, a stand-in that sees simulated pictures; "
-    "these are no figures of a real vision-language model."
+_UNTESTED = (
+    "No p-value where the proposals of the stand-in model decide: it would test a constant of ours."
 )
 
 # Title, and for each column its heading, its figure and the number of decimals.
@@ -50,6 +39,7 @@ _LAYOUTS: tuple[tuple[str, tuple[tuple[str, str, int], ...]], ...] = (
             ("sound %", "sound", 0),
             ("complete %", "complete", 0),
             ("suitable %", "suitable", 0),
+            ("vocabulary", "vocabulary", 3),
             ("predicates", "predicates", 1),
             ("operators", "operators", 1),
         ),
@@ -110,122 +100,50 @@ class Table:
     note: str = ""
 
 
-@dataclass(frozen=True)
-class Report:
-    """All figures of an experiment.
+def place(domain: str, noise: str) -> str:
+    """Of what a table speaks, as in its title."""
+    return f"{domain_key(domain)}, noise {noise}"
 
-    Attributes:
-        experiment: what was asked for.
-        finished: number of finished cells.
-        methods: figures of every method, by domain and noise, in the order of tables.
-        comparisons: of every method with the main one.
-        origins: the commands that ran the cells.
-        published: what others published, by domain.
+
+def group_tables(
+    domain: str,
+    noise: str,
+    methods: Sequence[MethodFigures],
+    comparisons: Sequence[PairedComparison],
+    published: PublishedResults,
+) -> tuple[Table, ...]:
+    """The tables of one domain with one noise, without those that would be empty.
+
+    Args:
+        domain: reference to the domain.
+        noise: the noise.
+        methods: their figures, in the order of tables.
+        comparisons: of methods with the main one.
+        published: what others published of the domain.
     """
-
-    experiment: Experiment
-    finished: int
-    methods: tuple[MethodFigures, ...]
-    comparisons: tuple[Comparison, ...]
-    origins: tuple[Origin, ...] = ()
-    published: Mapping[str, PublishedResults] = field(default_factory=dict)
-
-    @classmethod
-    def of(
-        cls,
-        experiment: Experiment,
-        cells: Sequence[CellResult],
-        origins: Sequence[Origin] = (),
-        published: Mapping[str, PublishedResults] | None = None,
-    ) -> Report:
-        """Put the report of the finished cells together."""
-        methods: list[MethodFigures] = []
-        comparisons: list[Comparison] = []
-        for by_method in group_cells(cells).values():
-            names = [name for name in METHODS if name in by_method]
-            methods += [MethodFigures.of(by_method[name]) for name in names]
-            main = MAIN_METHOD if MAIN_METHOD in names else names[0]
-            comparisons += [
-                compare(by_method[main], by_method[name]) for name in names if name != main
-            ]
-        return cls(
-            experiment,
-            len(cells),
-            tuple(methods),
-            tuple(comparisons),
-            tuple(origins),
-            published or {},
-        )
-
-    @property
-    def note(self) -> str:
-        """What must be said with the figures."""
-        cells = f"{self.finished} of {len(self.experiment.cells)} cells are finished."
-        return (
-            f"{cells} {_EMBEDDED_NOTE}" if self.experiment.settings.model == "embedded" else cells
-        )
-
-    @property
-    def made(self) -> tuple[tuple[str, str], ...]:
-        """How the figures were made: what, in words, by what."""
-        asked, settings, chosen = (
-            self.experiment,
-            self.experiment.settings,
-            self.experiment.problems,
-        )
-        commands = dict.fromkeys(f"`{origin.command}`" for origin in self.origins)
-        codes = dict.fromkeys(origin.code for origin in self.origins)
-        return (
-            *(("Command", command) for command in commands),
-            *(("Code", code) for code in codes),
-            ("Seeds", ", ".join(map(str, asked.seeds))),
-            ("Model", settings.model),
-            ("Noise", ", ".join(asked.noise)),
-            ("Learning", f"{settings.iterations} iterations of {settings.budget} executions"),
-            (
-                "Problems",
-                f"at most {chosen.easy} easy, {chosen.hard} hard, {chosen.impossible} impossible",
-            ),
-            ("Planning", f"at most {settings.time_limit:g} s a problem"),
-        )
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        return {
-            "experiment": self.experiment.name,
-            "note": self.note,
-            "made": [list(pair) for pair in self.made],
-            "cells": len(self.experiment.cells),
-            "finished": self.finished,
-            "methods": [method.to_json() for method in self.methods],
-            "comparisons": [comparison.to_json() for comparison in self.comparisons],
-        }
-
-    def tables(self) -> tuple[Table, ...]:
-        """The tables, those of one domain and noise together."""
-        found = []
-        for group in dict.fromkeys((m.domain, m.noise) for m in self.methods):
-            mine = [m for m in self.methods if (m.domain, m.noise) == group]
-            where = f"{group[0]}, noise {group[1]}"
-            tables = [_figures(f"{title} ({where})", mine, layout) for title, layout in _LAYOUTS]
-            published = self.published.get(group[0], PublishedResults())
-            found += [tables[0], _beside_published(where, mine, published), *tables[1:]]
-            found.append(_causes(where, mine))
-            theirs = [c for c in self.comparisons if (c.domain, c.noise) == group]
-            found.append(_comparisons(where, theirs))
-        return tuple(table for table in found if table.rows)
+    where = place(domain, noise)
+    first, *others = (_figures(f"{title} ({where})", methods, layout) for title, layout in _LAYOUTS)
+    tables = (
+        replace(first, note=" ".join(filter(None, (first.note, _judged(methods))))),
+        _beside_published(where, methods, published),
+        *others,
+        _causes(where, methods),
+        _comparisons(where, comparisons),
+    )
+    return tuple(table for table in tables if table.rows)
 
 
 def _figures(
     title: str, methods: Sequence[MethodFigures], layout: Sequence[tuple[str, str, int]]
 ) -> Table:
     """A table without the methods that have none of its figures."""
+    shown = [m for m in methods if any(m.figures[name] is not None for _, name, _ in layout)]
     rows = tuple(
         (_title(m.method), *(_figure(m, name, decimals) for _, name, decimals in layout))
-        for m in methods
-        if any(m.figures[name] is not None for _, name, _ in layout)
+        for m in shown
     )
-    return Table(title, ("method", *(heading for heading, _, _ in layout)), rows)
+    headings = ("method", *(heading for heading, _, _ in layout))
+    return Table(title, headings, rows, carried_by(m.method for m in shown))
 
 
 def _beside_published(
@@ -233,15 +151,15 @@ def _beside_published(
 ) -> Table:
     """Our figures and the paper's, of the methods that are in both."""
     names = tuple(PublishedMethod.model_fields)
-    rows = []
-    for method in methods:
-        row = published.methods.get(method.method)
-        if row is not None:
-            pairs = ((_figure(method, name, 1), _published(getattr(row, name))) for name in names)
-            rows.append((_title(method.method), *(text for pair in pairs for text in pair)))
+    rows, shown = [], [m for m in methods if m.method in published.methods]
+    for method in shown:
+        row = published.methods[method.method]
+        pairs = ((_figure(method, name, 1), _published(getattr(row, name))) for name in names)
+        rows.append((_title(method.method), *(text for pair in pairs for text in pair)))
     headings = ("easy %", "budget", "hard %", "budget", "impossible %")
     columns = ("method", *(text for heading in headings for text in (heading, "paper")))
-    return Table(f"Beside the paper ({where})", columns, tuple(rows), published.note)
+    note = " ".join(filter(None, (published.note, carried_by(m.method for m in shown))))
+    return Table(f"Beside the paper ({where})", columns, tuple(rows), note)
 
 
 def _published(figure: tuple[float, float] | None) -> str:
@@ -249,33 +167,67 @@ def _published(figure: tuple[float, float] | None) -> str:
 
 
 def _causes(where: str, methods: Sequence[MethodFigures]) -> Table:
-    causes = sorted({cause for m in methods for cause in m.causes})
+    causes, shown = sorted({c for m in methods for c in m.causes}), [m for m in methods if m.causes]
     rows = tuple(
-        (_title(m.method), *(str(m.causes.get(cause, 0)) for cause in causes))
-        for m in methods
-        if m.causes
+        (_title(m.method), *(str(m.causes.get(cause, 0)) for cause in causes)) for m in shown
     )
     title = f"Why problems were not solved, over all seeds ({where})"
-    return Table(title, ("method", *causes), rows)
+    return Table(title, ("method", *causes), rows, carried_by(m.method for m in shown))
 
 
-def _comparisons(where: str, comparisons: Sequence[Comparison]) -> Table:
+def _comparisons(where: str, comparisons: Sequence[PairedComparison]) -> Table:
     rows = tuple(
         (
             f"{_title(c.method)} - {_title(c.other)}",
             _show(c.difference, 1),
             str(c.wins),
             str(c.losses),
-            f"{c.p_value:.3g}",
+            "-" if c.p_value is None else f"{c.p_value:.3g}",
         )
         for c in comparisons
     )
     headings = ("methods", "difference, %", "only the first", "only the second", "p (McNemar)")
-    return Table(f"Same problems, same seeds ({where})", headings, rows)
+    names = dict.fromkeys(name for c in comparisons for name in (c.method, c.other))
+    untested = _UNTESTED if any(c.p_value is None for c in comparisons) else ""
+    note = " ".join(filter(None, (untested, carried_by(names))))
+    return Table(f"Same problems, same seeds ({where})", headings, rows, note)
+
+
+def carried_by(methods: Iterable[str]) -> str:
+    """What the model contributes to the figures of methods, and what the package."""
+    groups: dict[Shares, list[str]] = {}
+    for name in methods:
+        groups.setdefault(METHODS[name].shares, []).append(_title(name))
+    parts = (
+        f"{', '.join(titles)}: the model {shares.model}; the package {shares.system}."
+        for shares, titles in groups.items()
+    )
+    return " ".join(("Who carries what:", *parts)) if groups else ""
+
+
+def _judged(methods: Sequence[MethodFigures]) -> str:
+    """Which solved problems are solved as far as the model can tell only."""
+    counts = ", ".join(
+        f"{_title(m.method)} {m.judged_by_model}" for m in methods if m.judged_by_model
+    )
+    return (
+        f"Judged by the learned model alone, as the environment cannot tell (over all seeds): "
+        f"{counts}."
+        if counts
+        else ""
+    )
 
 
 def _figure(method: MethodFigures, name: str, decimals: int) -> str:
-    return "unknown" if method.is_unknown(name) else _show(method.figures[name], decimals)
+    if method.is_unknown(name):
+        return "unknown"
+    if method.is_undefined(name):
+        return "undefined"
+    spread, seeds = method.figures[name], len(method.seeds)
+    part = name in CHECKED and spread is not None and spread.count < seeds
+    return _show(spread, decimals) + (
+        f" ({spread.count} of {seeds} seeds)" if part and spread else ""
+    )
 
 
 def _show(spread: Spread | None, decimals: int) -> str:

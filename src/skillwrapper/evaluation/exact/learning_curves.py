@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates
 from skillwrapper.evaluation.exact.predictions import predict_all
-from skillwrapper.evaluation.exact.state_space import StateSpace
-from skillwrapper.grounding import AtomSpace, GroundModel, Labels
+from skillwrapper.evaluation.exact.tallies import Tally, tally_by_skill
+from skillwrapper.grounding import GroundModel
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.archive.records import CurvePointRecord
 from skillwrapper.symbols import AbstractModel
@@ -28,11 +29,11 @@ class Stage:
 
 @dataclass(frozen=True)
 class CurvePoint:
-    """The exact figures of a model on the way of learning.
+    """The exact figures of a model on the way of learning; None for what is undefined.
 
     Attributes:
         executions: skills executed until then.
-        precision: as in ``verification.Verification``.
+        precision: as in ``tallies.Tally``.
         recall: likewise.
         effect_accuracy: likewise.
         predicates: number of predicates.
@@ -40,9 +41,9 @@ class CurvePoint:
     """
 
     executions: int
-    precision: float
-    recall: float
-    effect_accuracy: float
+    precision: float | None
+    recall: float | None
+    effect_accuracy: float | None
     predicates: int
     operators: int
 
@@ -57,25 +58,30 @@ def read_stages(archive: RunArchive) -> tuple[Stage, ...]:
 
 
 def learning_curve(
-    stages: Sequence[Stage], space: StateSpace, label_all: Callable[[AtomSpace], Labels]
+    stages: Sequence[Stage], scenes: Sequence[LabelledStates]
 ) -> tuple[CurvePoint, ...]:
     """Exact figures of every stage.
 
     Args:
         stages: the models, in order of time.
-        space: the true state space.
-        label_all: labels of all its states (states, atoms).
+        scenes: the states of at least one scene with their labels.
     """
-    return tuple(_point(stage, space, label_all) for stage in stages)
+    return tuple(_point(stage, scenes) for stage in stages)
 
 
-def area_under(points: Sequence[tuple[int, float]]) -> float:
-    """Area under a rising staircase over executions, divided by all executions; 0 without any."""
+def area_under(points: Sequence[tuple[int, float | None]]) -> float | None:
+    """Area under a rising staircase over executions, divided by all executions.
+
+    Returns:
+        None without executions, or if a value is undefined.
+    """
     area, height, position = 0.0, 0.0, 0
     for executions, value in points:
+        if value is None:
+            return None
         area += height * (executions - position)
         position, height = executions, value
-    return area / position if position else 0.0
+    return area / position if position else None
 
 
 def write_curve(archive: RunArchive, curve: Sequence[CurvePoint]) -> None:
@@ -83,19 +89,19 @@ def write_curve(archive: RunArchive, curve: Sequence[CurvePoint]) -> None:
     archive.write_curve([CurvePointRecord(**vars(point)) for point in curve])
 
 
-def _point(stage: Stage, space: StateSpace, label_all: Callable[[AtomSpace], Labels]) -> CurvePoint:
-    ground = GroundModel.of(stage.model, stage.model.domain.objects)
-    found = predict_all(ground, space, label_all(ground.space))
-    hits = int((found.applicable & space.success).sum())
+def _point(stage: Stage, scenes: Sequence[LabelledStates]) -> CurvePoint:
+    total = sum((_tally(stage.model, labelled) for labelled in scenes), Tally())
     return CurvePoint(
         executions=stage.executions,
-        precision=_ratio(hits, int(found.applicable.sum())),
-        recall=_ratio(hits, int(space.success.sum())),
-        effect_accuracy=_ratio(int(found.effects_right.sum()), int(found.effects_made.sum())),
+        precision=total.precision,
+        recall=total.recall,
+        effect_accuracy=total.effect_accuracy,
         predicates=len(stage.model.predicates),
         operators=len(stage.model.operators),
     )
 
 
-def _ratio(part: int, whole: int) -> float:
-    return part / whole if whole else 1.0
+def _tally(model: AbstractModel, labelled: LabelledStates) -> Tally:
+    ground = GroundModel.of(model, labelled.states.scene.objects)
+    found = predict_all(ground, labelled.states.space, labelled.labels(ground.space))
+    return sum(tally_by_skill(found).values(), Tally())

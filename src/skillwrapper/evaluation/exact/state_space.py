@@ -1,4 +1,4 @@
-"""The whole true state space of a domain that can list its states."""
+"""The whole true state space of a scene of a domain that can list its states."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class StateSpace:
 
     @classmethod
     def of(cls, environment: Enumerable) -> StateSpace:
-        """Run every skill instance in every state that the standard start leads to."""
+        """Run every skill instance in every state that the start of the present scene leads to."""
         domain = environment.domain
         states = tuple(environment.reachable_states())
         instances = ground_skills(domain.skills, environment.scene.objects)
@@ -83,6 +83,11 @@ class StateSpace:
             goal = int(before[nearest])
             steps.append(self.instances[int(instance[nearest])])
         return tuple(reversed(steps))
+
+    @cached_property
+    def index(self) -> Mapping[Any, int]:
+        """The number of every state."""
+        return {state: number for number, state in enumerate(self.states)}
 
     @cached_property
     def distance(self) -> NDArray[np.intp]:

@@ -11,8 +11,9 @@ plan all of whose steps are right is right. That makes the definitions checkable
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
@@ -29,8 +30,30 @@ _IMAGINED_STATES = 10
 """Abstract states looked at, as a multiple of the true ones, before completeness stays open."""
 
 
+class Verdict(StrEnum):
+    """Whether a definition holds."""
+
+    HOLDS = "yes"
+    FAILS = "no"
+    OPEN = "not decided"
+    UNDEFINED = "undefined"
+    """There is nothing of which it could be said."""
+
+    @property
+    def known(self) -> bool | None:
+        """True or false; None if it is neither."""
+        return {Verdict.HOLDS: True, Verdict.FAILS: False}.get(self)
+
+    @classmethod
+    def together(cls, verdicts: Iterable[Verdict]) -> Verdict:
+        """That of several scenes: what fails in one fails."""
+        found = set(verdicts)
+        order = (cls.FAILS, cls.OPEN, cls.HOLDS)
+        return next((verdict for verdict in order if verdict in found), cls.UNDEFINED)
+
+
 @dataclass(frozen=True)
-class Violation:
+class Refutation:
     """One place where a definition does not hold.
 
     Attributes:
@@ -53,16 +76,17 @@ class Verdicts:
     """Which definitions hold.
 
     Attributes:
-        sound: see the module.
-        complete: None if it stayed open.
-        suitable: see the module.
-        violations: for each that does not hold, one nearest to the start.
+        sound: see the module; undefined of a model that predicts nothing.
+        complete: see the module; undefined without predicates, or where no skill succeeds; open
+            if the search for abstract plans became too large.
+        suitable: see the module; undefined if nothing is predicted and nothing succeeds.
+        refutations: for each that does not hold, one nearest to the start.
     """
 
-    sound: bool
-    complete: bool | None
-    suitable: bool
-    violations: tuple[Violation, ...]
+    sound: Verdict
+    complete: Verdict
+    suitable: Verdict
+    refutations: tuple[Refutation, ...] = ()
 
 
 def judge(model: GroundModel, predictions: Predictions) -> Verdicts:
@@ -70,32 +94,39 @@ def judge(model: GroundModel, predictions: Predictions) -> Verdicts:
     unsound = _nearest(predictions, _unsound(model.space, predictions))
     unsuitable = _nearest(predictions, _unsuitable(model, predictions))
     complete, incomplete = _completeness(model, predictions)
+    predicts, succeeds = predictions.applicable.any(), predictions.space.success.any()
     found = (unsound, incomplete, unsuitable)
     return Verdicts(
-        sound=unsound is None,
+        sound=_verdict(unsound, defined=bool(predicts)),
         complete=complete,
-        suitable=unsuitable is None,
-        violations=tuple(violation for violation in found if violation is not None),
+        suitable=_verdict(unsuitable, defined=bool(predicts or succeeds)),
+        refutations=tuple(refutation for refutation in found if refutation is not None),
     )
 
 
-def _nearest(predictions: Predictions, found: Iterator[Violation]) -> Violation | None:
+def _verdict(refutation: Refutation | None, *, defined: bool) -> Verdict:
+    if refutation is not None:
+        return Verdict.FAILS
+    return Verdict.HOLDS if defined else Verdict.UNDEFINED
+
+
+def _nearest(predictions: Predictions, found: Iterator[Refutation]) -> Refutation | None:
     distance = predictions.space.distance
     return min(found, key=lambda v: (distance[v.state], v.state, v.instance), default=None)
 
 
-def _unsound(space: AtomSpace, predictions: Predictions) -> Iterator[Violation]:
+def _unsound(space: AtomSpace, predictions: Predictions) -> Iterator[Refutation]:
     yield from _pairs(predictions, predictions.false_alarms, "sound", "applies, but fails")
     for wrong in predictions.wrong_effects:
         yield _wrong_effect(space, predictions, wrong)
 
 
-def _wrong_effect(space: AtomSpace, predictions: Predictions, wrong: WrongEffects) -> Violation:
+def _wrong_effect(space: AtomSpace, predictions: Predictions, wrong: WrongEffects) -> Refutation:
     nearest = int(np.argmin(predictions.space.distance[wrong.states]))
     state, instance = int(wrong.states[nearest]), int(wrong.instances[nearest])
     truth = predictions.labels[predictions.space.following[state, instance]]
     predicted = wrong.predicted[nearest]
-    return Violation(
+    return Refutation(
         "sound",
         f"{wrong.operator.name} predicts another change",
         state,
@@ -113,7 +144,7 @@ def _difference(space: AtomSpace, predicted: Labels, truth: Labels) -> tuple[str
     )
 
 
-def _unsuitable(model: GroundModel, predictions: Predictions) -> Iterator[Violation]:
+def _unsuitable(model: GroundModel, predictions: Predictions) -> Iterator[Refutation]:
     alarms, missed = predictions.false_alarms, predictions.missed
     yield from _pairs(predictions, alarms, "suitable", "applies, but fails")
     yield from _pairs(predictions, missed, "suitable", "succeeds, but no operator applies")
@@ -125,24 +156,26 @@ def _unsuitable(model: GroundModel, predictions: Predictions) -> Iterator[Violat
             other = predictions.space.instances[int(np.argmax(differs[number]))]
             reason = f"{wrong.operator.name} predicts wrongly whether {other} can follow"
             state, instance = int(wrong.states[number]), int(wrong.instances[number])
-            yield Violation("suitable", reason, state, instance)
+            yield Refutation("suitable", reason, state, instance)
 
 
 def _pairs(
     predictions: Predictions, marked: Pairs, verdict: str, reason: str
-) -> Iterator[Violation]:
-    """A violation for each marked pair of state and instance, nearest to the start only."""
+) -> Iterator[Refutation]:
+    """A refutation for each marked pair of state and instance, nearest to the start only."""
     states, instances = np.nonzero(marked)
     if len(states):
         first = int(np.argmin(predictions.space.distance[states]))
-        yield Violation(verdict, reason, int(states[first]), int(instances[first]))
+        yield Refutation(verdict, reason, int(states[first]), int(instances[first]))
 
 
 def _completeness(
     model: GroundModel, predictions: Predictions
-) -> tuple[bool | None, Violation | None]:
+) -> tuple[Verdict, Refutation | None]:
     """Whether abstract plans lead wherever skills truly lead."""
     space, labels = predictions.space, predictions.labels
+    if not (space.success.any() and model.space.atoms):
+        return Verdict.UNDEFINED, None  # where all states look the same, no plan leads anywhere
     graph = StateGraph(model, limit=_IMAGINED_STATES * len(space.states))
     states, instances = np.nonzero(space.success & ~predictions.reproduced)
     open_questions = False
@@ -152,8 +185,8 @@ def _completeness(
         reachable = is_reachable(graph, labels[state], after)
         if reachable is False:
             reason = "succeeds, but no abstract plan leads to what is then seen"
-            return False, Violation("complete", reason, state, instance)
+            return Verdict.FAILS, Refutation("complete", reason, state, instance)
         open_questions |= reachable is None
         if open_questions:
             break
-    return (None if open_questions else True), None
+    return (Verdict.OPEN if open_questions else Verdict.HOLDS), None

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+from operator import add
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from skillwrapper.errors import InternalError
-from skillwrapper.evaluation.exact.predictions import Predictions, predict_all
-from skillwrapper.evaluation.exact.state_space import StateSpace
-from skillwrapper.evaluation.exact.verdicts import Verdicts, Violation, judge
-from skillwrapper.grounding import GroundModel, Labels
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates, SceneStates
+from skillwrapper.evaluation.exact.predictions import predict_all
+from skillwrapper.evaluation.exact.tallies import Tally, tally_by_skill
+from skillwrapper.evaluation.exact.verdicts import Refutation, Verdict, Verdicts, judge
+from skillwrapper.evaluation.exact.vocabulary import Vocabulary, vocabulary_of
+from skillwrapper.grounding import GroundModel
 from skillwrapper.symbols.model import AbstractModel
-from skillwrapper.world.capabilities import Enumerable, look_at
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.skills import SkillInstance
-
-Labeller = Callable[[Sequence[Observation]], Labels]
-"""Reads pictures: a row over the ground atoms for every observation (observations, atoms)."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +28,8 @@ class Counterexample:
     Attributes:
         verdict: the definition: ``"sound"``, ``"complete"`` or ``"suitable"``.
         reason: what is wrong.
-        path: skill instances from the standard start to the state in question.
+        scene: name of the scene.
+        path: skill instances from the scene's start to the state in question.
         instance: the skill instance that is predicted wrongly there.
         difference: atoms that are predicted otherwise than they are read.
         before: what is seen in the state.
@@ -41,6 +38,7 @@ class Counterexample:
 
     verdict: str
     reason: str
+    scene: str
     path: tuple[SkillInstance, ...]
     instance: SkillInstance
     difference: tuple[str, ...]
@@ -52,6 +50,7 @@ class Counterexample:
         return {
             "verdict": self.verdict,
             "reason": self.reason,
+            "scene": self.scene,
             "path": [str(instance) for instance in self.path],
             "instance": str(self.instance),
             "difference": list(self.difference),
@@ -73,148 +72,152 @@ class Counterexample:
 
 @dataclass(frozen=True)
 class Verification:
-    """The truth about a model. Ratios of nothing, e.g. the precision of no prediction, are 1.
+    """The truth about a model in one scene or in several; what is undefined is None, never 1.
 
     Attributes:
+        scenes: names of the scenes.
         states: number of reachable states.
         pairs: number of states times skill instances.
-        successes: number of pairs in which the skill truly succeeds.
         undecided: pairs whose prediction rests on an atom that was read as unknown.
-        precision: of the pairs predicted to succeed, the share that does.
-        recall: of the pairs that succeed, the share predicted to.
-        effect_accuracy: of the changes predicted for successes by applicable ground operators,
-            the share that is exactly what is read afterwards.
-        precision_by_skill: precision of every skill.
-        recall_by_skill: recall of every skill.
-        effect_accuracy_by_skill: effect accuracy of every skill.
-        sound: whether the model is sound (the paper's definition).
-        complete: whether it is complete; None if that could not be decided.
-        suitable: whether it is suitable.
+        by_skill: what was predicted of every skill, and how often rightly.
+        vocabulary: what the labels determine of the true facts; None where nobody tells these.
+        verdicts: whether the model is sound, complete and suitable (the paper's definitions).
         counterexamples: one for each definition that does not hold.
-        seconds: wall-clock time.
+        seconds: wall-clock time, of reading and checking.
+        parts: the verification in each scene, if there are several.
     """
 
+    scenes: tuple[str, ...]
     states: int
     pairs: int
-    successes: int
     undecided: int
-    precision: float
-    recall: float
-    effect_accuracy: float
-    precision_by_skill: dict[str, float]
-    recall_by_skill: dict[str, float]
-    effect_accuracy_by_skill: dict[str, float]
-    sound: bool
-    complete: bool | None
-    suitable: bool
+    by_skill: dict[str, Tally]
+    vocabulary: Vocabulary | None
+    verdicts: Verdicts
     counterexamples: tuple[Counterexample, ...]
     seconds: float
+    parts: tuple[Verification, ...] = ()
+
+    @property
+    def total(self) -> Tally:
+        """The counts of all skills together."""
+        return sum(self.by_skill.values(), Tally())
+
+    @property
+    def precision(self) -> float | None:
+        """Of the pairs predicted to succeed, the share that does."""
+        return self.total.precision
+
+    @property
+    def recall(self) -> float | None:
+        """Of the pairs that succeed, the share predicted to."""
+        return self.total.recall
+
+    @property
+    def effect_accuracy(self) -> float | None:
+        """Of the changes predicted for successes, the share that is read afterwards."""
+        return self.total.effect_accuracy
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data with the attributes as keys."""
-        plain = {name: value for name, value in vars(self).items() if name != "counterexamples"}
-        return {**plain, "counterexamples": [c.to_json() for c in self.counterexamples]}
+        """Plain data; null for what is undefined, and for a verdict that is open."""
+        total, skills = self.total, self.by_skill.items()
+        data = {
+            "states": self.states,
+            "pairs": self.pairs,
+            "successes": total.successes,
+            "undecided": self.undecided,
+            "precision": total.precision,
+            "recall": total.recall,
+            "effect_accuracy": total.effect_accuracy,
+            "precision_by_skill": {name: tally.precision for name, tally in skills},
+            "recall_by_skill": {name: tally.recall for name, tally in skills},
+            "effect_accuracy_by_skill": {name: tally.effect_accuracy for name, tally in skills},
+            "vocabulary": self.vocabulary.to_json() if self.vocabulary else None,
+            "sound": self.verdicts.sound.known,
+            "complete": self.verdicts.complete.known,
+            "suitable": self.verdicts.suitable.known,
+            "counterexamples": [example.to_json() for example in self.counterexamples],
+            "seconds": self.seconds,
+        }
+        if not self.parts:
+            return {"scene": self.scenes[0], **data}
+        return {**data, "scenes": {part.scenes[0]: part.to_json() for part in self.parts}}
 
 
-def verify(
-    environment: Enumerable, model: AbstractModel, labeller: Labeller, *, seed: int = 0
-) -> Verification:
-    """Render every reachable state, read it, and compare predictions with what happens.
+def verify(scenes: Sequence[LabelledStates], model: AbstractModel) -> Verification:
+    """Compare predictions with what happens, in every state of every scene.
 
     Args:
-        environment: a domain that can list its states.
+        scenes: the states of at least one scene with their labels.
         model: the model to check.
-        labeller: reads the pictures, over the atoms of the model's predicates and the scene.
-        seed: chooses the layout of the pictures.
     """
+    parts = tuple(_verify_scene(labelled, model) for labelled in scenes)
+    return parts[0] if len(parts) == 1 else _together(parts)
+
+
+def _verify_scene(labelled: LabelledStates, model: AbstractModel) -> Verification:
     started = time.monotonic()
-    environment.reset(seed=seed)
-    space = StateSpace.of(environment)
-    labels = labeller(look_at(environment, space.states))
-    found = verify_labels(environment, space, model, labels)
-    return replace(found, seconds=time.monotonic() - started)
-
-
-def verify_labels(
-    environment: Enumerable, space: StateSpace, model: AbstractModel, labels: Labels
-) -> Verification:
-    """The same with labels that are known already.
-
-    Args:
-        environment: the domain; draws the counterexamples in its present layout.
-        space: its whole state space.
-        model: the model to check.
-        labels: the abstract state of every state (states, atoms).
-    """
-    started = time.monotonic()
-    objects = environment.scene.objects
-    ground = GroundModel.of(model, objects)
-    if labels.shape != (len(space.states), len(ground.space.atoms)):
-        raise InternalError(
-            f"expected labels of shape {(len(space.states), len(ground.space.atoms))}, "
-            f"got {labels.shape}; please report it"
-        )
-    predictions = predict_all(ground, space, labels)
+    states = labelled.states
+    ground = GroundModel.of(model, states.scene.objects)
+    labels = labelled.labels(ground.space)
+    predictions = predict_all(ground, states.space, labels)
     verdicts = judge(ground, predictions)
-    return _summary(predictions, verdicts, environment, started)
-
-
-def _summary(
-    predictions: Predictions,
-    verdicts: Verdicts,
-    environment: Enumerable,
-    started: float,
-) -> Verification:
-    space = predictions.space
-    success, hits = space.success, space.success & predictions.applicable
-    skills = np.array([instance.skill for instance in space.instances])
-    by_skill = {name: skills == name for name in dict.fromkeys(skills.tolist())}
-    made, right = predictions.effects_made, predictions.effects_right
     return Verification(
-        states=len(space.states),
-        pairs=int(success.size),
-        successes=int(success.sum()),
+        scenes=(states.scene.name,),
+        states=len(states.space.states),
+        pairs=int(states.space.success.size),
         undecided=int(predictions.undecided.sum()),
-        precision=_ratio(hits, predictions.applicable),
-        recall=_ratio(hits, success),
-        effect_accuracy=_ratio(right, made),
-        precision_by_skill={
-            name: _ratio(hits[:, of], predictions.applicable[:, of])
-            for name, of in by_skill.items()
-        },
-        recall_by_skill={
-            name: _ratio(hits[:, of], success[:, of]) for name, of in by_skill.items()
-        },
-        effect_accuracy_by_skill={
-            name: _ratio(right[of], made[of]) for name, of in by_skill.items()
-        },
-        sound=verdicts.sound,
-        complete=verdicts.complete,
-        suitable=verdicts.suitable,
-        counterexamples=tuple(
-            _counterexample(space, violation, environment) for violation in verdicts.violations
-        ),
+        by_skill=tally_by_skill(predictions),
+        vocabulary=vocabulary_of(states.facts, labels) if states.facts is not None else None,
+        verdicts=verdicts,
+        counterexamples=tuple(_counterexample(states, found) for found in verdicts.refutations),
         seconds=time.monotonic() - started,
     )
 
 
-def _ratio(part: NDArray[Any], whole: NDArray[Any]) -> float:
-    total = int(whole.sum())
-    return int(part.sum()) / total if total else 1.0
+def _together(parts: tuple[Verification, ...]) -> Verification:
+    """The verification of several scenes; of counterexamples the nearest ones."""
+    skills = dict.fromkeys(name for part in parts for name in part.by_skill)
+    vocabularies = [part.vocabulary for part in parts if part.vocabulary is not None]
+    verdicts = [part.verdicts for part in parts]
+    examples: dict[str, Counterexample] = {}
+    for example in sorted((e for p in parts for e in p.counterexamples), key=_path_length):
+        examples.setdefault(example.verdict, example)
+    return Verification(
+        scenes=tuple(name for part in parts for name in part.scenes),
+        states=sum(part.states for part in parts),
+        pairs=sum(part.pairs for part in parts),
+        undecided=sum(part.undecided for part in parts),
+        by_skill={
+            name: sum((part.by_skill.get(name, Tally()) for part in parts), Tally())
+            for name in skills
+        },
+        vocabulary=reduce(add, vocabularies) if vocabularies else None,
+        verdicts=Verdicts(
+            sound=Verdict.together(found.sound for found in verdicts),
+            complete=Verdict.together(found.complete for found in verdicts),
+            suitable=Verdict.together(found.suitable for found in verdicts),
+        ),
+        counterexamples=tuple(examples.values()),
+        seconds=sum(part.seconds for part in parts),
+        parts=parts,
+    )
 
 
-def _counterexample(
-    space: StateSpace, violation: Violation, environment: Enumerable
-) -> Counterexample:
-    following = int(space.following[violation.state, violation.instance])
-    states = space.states[violation.state], space.states[following]
-    before, after = look_at(environment, states)
+def _path_length(example: Counterexample) -> int:
+    return len(example.path)
+
+
+def _counterexample(states: SceneStates, found: Refutation) -> Counterexample:
+    space = states.space
+    following = int(space.following[found.state, found.instance])
     return Counterexample(
-        verdict=violation.verdict,
-        reason=violation.reason,
-        path=space.path_to(violation.state),
-        instance=space.instances[violation.instance],
-        difference=violation.difference,
-        before=before,
-        after=after,
+        verdict=found.verdict,
+        reason=found.reason,
+        scene=states.scene.name,
+        path=space.path_to(found.state),
+        instance=space.instances[found.instance],
+        difference=found.difference,
+        before=states.situations[found.state].look(),
+        after=states.situations[following].look(),
     )

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from typing import Final
 
 from skillwrapper.evaluation.exact.learning_curves import Stage
-from skillwrapper.evaluation.methods.method import Bench, Prepared
-from skillwrapper.evaluation.problems.readers import AtomReader, PictureReader
+from skillwrapper.evaluation.exact.state_readers import AtomReader, PictureReader
+from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.archive import make_archive
 from skillwrapper.runs.model_sessions import open_session
+from skillwrapper.world.capabilities import Settable, require
 
 
 @dataclass(frozen=True)
@@ -31,24 +32,34 @@ class ExpertMethod:
     reads_pictures: bool
     source: str | None = None
 
+    @property
+    def shares(self) -> Shares:
+        """The model reads, if anybody does."""
+        reading = "reads start and goal" if self.reads_pictures else "nothing"
+        return Shares(reading, "plans with operators written by hand")
+
     @contextmanager
-    def prepare(self, bench: Bench) -> Iterator[Prepared]:
-        """Load the expert's model."""
-        expert = bench.package.expert
+    def prepare(self, context: CellContext) -> Iterator[Prepared]:
+        """Load the expert's model.
+
+        Raises:
+            ConfigurationError: if the domain has no expert.
+        """
+        expert = context.package.expert
         model, truth = expert.model, AtomReader(expert.atoms)
         stages = (Stage(0, model),)
-        states = bench.truth.space.states
+        exact = context.exact.labelled(truth)
         if not self.reads_pictures:
-            solver = bench.solver(model, truth, truth)
-            yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states))
+            require(context.environment, Settable, f"the method {self.name}")
+            yield Prepared(context.solver(model, truth, exact), stages, exact)
             return
-        config = bench.config()
-        archive = make_archive(bench.folder / "run", config, bench.environment.domain)
+        config = context.config()
+        archive = make_archive(context.folder / "run", config, context.environment.domain)
         with open_session(config, archive.layout.calls, learning=False) as session:
-            table = TruthTable(bench.environment.domain, session.assistant)
-            reader = PictureReader(bench.environment, table)
-            solver = bench.solver(model, reader, truth, lambda: session.counter.answered)
-            yield Prepared(solver, stages, lambda atoms: truth.read(atoms, states), calls=archive)
+            table = TruthTable(context.environment.domain, session.assistant)
+            reader = PictureReader(table)
+            solver = context.solver(model, reader, exact, lambda: session.counter.answered)
+            yield Prepared(solver, stages, exact, calls=archive)
 
 
 EXPERT: Final = ExpertMethod("expert", "Expert Operators, true states", reads_pictures=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import LearnedMethod
+from skillwrapper.evaluation.methods.method import Shares
 from skillwrapper.runs.settings import RunSettings
 
 
@@ -13,4 +14,9 @@ def _invent_at_once(config: RunSettings) -> RunSettings:
     return config.model_copy(update={"learning": learning})
 
 
-FM_INVENT: Final = LearnedMethod("fm-invent", "FM Invent", _invent_at_once)
+_PARTS = Shares(
+    "reads pictures, names all predicates at once",
+    "learns operators from them, plans",
+    decided_by_model=True,
+)
+FM_INVENT: Final = LearnedMethod("fm-invent", "FM Invent", _PARTS, _invent_at_once)

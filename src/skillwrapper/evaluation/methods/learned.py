@@ -5,15 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Final
 
 from skillwrapper.evaluation.exact.learning_curves import read_stages
-from skillwrapper.evaluation.methods.method import Bench, Prepared
-from skillwrapper.evaluation.problems.readers import PictureReader
+from skillwrapper.evaluation.exact.state_readers import PictureReader
+from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.launch import learn
 from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.runs.settings import RunSettings
+
+WHOLE_METHOD: Final = Shares(
+    "reads pictures, proposes predicates and skill sequences",
+    "explores, asks, scores and prunes predicates, learns operators, plans",
+)
 
 
 def unchanged(config: RunSettings) -> RunSettings:
@@ -29,34 +35,36 @@ class LearnedMethod:
         name: short, as in experiment files.
         title: as in tables.
         configure: changes the configuration of the whole method.
+        shares: who does what.
         source: None: it explores itself.
     """
 
     name: str
     title: str
+    shares: Shares
     configure: Callable[[RunSettings], RunSettings] = unchanged
     source: str | None = None
 
     @contextmanager
-    def prepare(self, bench: Bench) -> Iterator[Prepared]:
+    def prepare(self, context: CellContext) -> Iterator[Prepared]:
         """Learn in the folder ``run`` of the cell, which can be looked at like any other run."""
-        config = self.configure(bench.config())
-        path = bench.folder / "run"
-        result = learn(config, path, environment=bench.environment)
+        config = self.configure(context.config())
+        path = context.folder / "run"
+        result = learn(config, path, environment=context.environment)
         archive = RunArchive.open(path)
         stages = read_stages(archive)
         with open_session(config, archive.layout.calls, learning=False) as session:
-            recorded = TruthTable(bench.environment.domain, session.assistant)
-            solver = bench.solver(
+            recorded = TruthTable(context.environment.domain, session.assistant)
+            solver = context.solver(
                 stages[-1].model,
-                PictureReader(bench.environment, recorded),
-                PictureReader(bench.environment, bench.truth.sight),
+                PictureReader(recorded),
+                context.exact.read,
                 lambda: session.counter.answered,
             )
             yield Prepared(
                 solver,
                 stages,
-                bench.truth.labels,
+                context.exact.read,
                 result.episodes,
                 recorded,
                 config.learning.absences,

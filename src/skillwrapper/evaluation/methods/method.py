@@ -2,76 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from pydantic import BaseModel, ConfigDict, Field
-
 from skillwrapper.domains.package import DomainPackage
+from skillwrapper.evaluation.exact.exact_states import ExactStates
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates
 from skillwrapper.evaluation.exact.learning_curves import Stage
-from skillwrapper.evaluation.exact.state_truth import StateTruth
+from skillwrapper.evaluation.exact.state_readers import StateReader
+from skillwrapper.evaluation.methods.cell import Cell
+from skillwrapper.evaluation.methods.settings import ExperimentSettings
+from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.evaluation.problems.problems import Problem
-from skillwrapper.evaluation.problems.readers import StateReader
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.evaluation.problems.solving import ModelSolver
-from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.perception.labelling import TruthSource
-from skillwrapper.planning.planner import Planner, PlannerSettings
+from skillwrapper.planning.planner import Planner
 from skillwrapper.runs.archive import RunArchive
-from skillwrapper.runs.settings import ModelSettings, RunSettings
+from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel
-from skillwrapper.world.capabilities import Enumerable
+from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode
 
 
 @dataclass(frozen=True)
-class Cell:
-    """One method on one domain with one seed and one noise.
-
-    Attributes:
-        method: name of the method.
-        domain: name of the domain.
-        seed: decides everything left to chance.
-        noise: name of a noise profile of the embedded model, or a rate.
-    """
-
-    method: str
-    domain: str
-    seed: int
-    noise: str
-
-    @property
-    def name(self) -> str:
-        """Unique in an experiment; also the name of its folder."""
-        return f"{self.method}-{self.domain}-s{self.seed}-{self.noise}"
-
-
-class CellSettings(BaseModel):
-    """What is equal in all cells of an experiment.
-
-    Attributes:
-        model: which model answers, e.g. ``embedded`` or ``openai:gpt-5``.
-        iterations: of learning methods, unless the method itself says.
-        budget: skills executed in an iteration.
-        time_limit: seconds for the planner and one problem.
-        actions: skills that a method without a planner may execute for one problem.
-    """
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    model: str = "embedded"
-    iterations: int = Field(default=10, ge=1)
-    budget: int = Field(default=30, ge=1)
-    time_limit: float = Field(default=10.0, gt=0.0, allow_inf_nan=False)
-    actions: int = Field(default=35, ge=1)
-
-
-@dataclass(frozen=True)
-class Bench:
+class CellContext:
     """What a method gets to work with in one cell.
 
     Attributes:
@@ -79,39 +37,47 @@ class Bench:
         settings: those of all cells.
         folder: where the method may write.
         source: folder of the finished cell whose data the method learns from, if it asks for one.
-        environment: the domain.
-        package: what else is known of it, for baselines that are given that.
-        truth: labels without error, for finding causes and for exact figures.
+        environment: the domain's robot or simulator.
+        package: what else is known of the domain, for baselines that are given that.
+        exact: all its states, as far as they can be listed.
     """
 
     cell: Cell
-    settings: CellSettings
+    settings: ExperimentSettings
     folder: Path
     source: Path | None
-    environment: Enumerable
+    environment: Environment
     package: DomainPackage
-    truth: StateTruth
+    exact: ExactStates
 
     def config(self) -> RunSettings:
         """A run of the whole method in this cell."""
-        return RunSettings(
-            domain=self.cell.domain,
-            seed=self.cell.seed,
-            iterations=self.settings.iterations,
-            exploration=ExplorationSettings(budget=self.settings.budget),
-            model=ModelSettings(name=self.settings.model, noise=self.cell.noise),
-        )
+        return self.settings.run(self.cell.domain, self.cell.seed, self.cell.noise)
+
+    @property
+    def world(self) -> ProblemWorld:
+        """Where problems are set up."""
+        facts = self.package.system_predicates if self.package.has("system_predicates") else ()
+        return ProblemWorld(self.environment, facts)
 
     def solver(
         self,
         model: AbstractModel,
         reader: StateReader,
-        truth: StateReader,
+        truth: Sequence[LabelledStates],
         calls: Callable[[], int] = lambda: 0,
     ) -> ModelSolver:
-        """A solver with a model and K*."""
-        planner = Planner(PlannerSettings(time_limit=self.settings.time_limit))
-        return ModelSolver(self.environment, self.truth.space, model, reader, truth, planner, calls)
+        """A solver with a model and a planner.
+
+        Args:
+            model: the model.
+            reader: reads start and goal.
+            truth: all states with labels without error, to tell causes; may be empty.
+            calls: how many questions were put to models so far.
+        """
+        by_scene = {labelled.states.scene.name: labelled for labelled in truth}
+        planner = Planner(self.settings.planner)
+        return ModelSolver(self.world, model, reader, planner, by_scene, calls)
 
 
 class Solver(Protocol):
@@ -129,7 +95,7 @@ class Prepared:
     Attributes:
         solver: solves them.
         stages: its models, the last one being what it solves with; none for methods without.
-        label_all: labels of all states (states, atoms) without error, for exact figures.
+        exact: all states with labels without error, for exact figures; empty where there are none.
         episodes: what was executed for learning.
         recorded: the labels of the recorded pictures that it learned from.
         absences: whether it learns universal absences.
@@ -140,13 +106,29 @@ class Prepared:
 
     solver: Solver
     stages: tuple[Stage, ...] = ()
-    label_all: Callable[[AtomSpace], Labels] | None = None
+    exact: tuple[LabelledStates, ...] = ()
     episodes: tuple[Episode, ...] = ()
     recorded: TruthSource | None = None
     absences: bool = True
     figures: Mapping[str, Any] = field(default_factory=dict)
     run: RunArchive | None = None
     calls: RunArchive | None = None
+
+
+@dataclass(frozen=True)
+class Shares:
+    """Who does what in a method; every table says so (docs/semantics.md, D25).
+
+    Attributes:
+        model: what the model answers.
+        system: what the package does with it.
+        decided_by_model: whether the figures rest on what the model proposes rather than on what
+            the package makes of it; a constant of the stand-in then decides them.
+    """
+
+    model: str
+    system: str
+    decided_by_model: bool = False
 
 
 class Method(Protocol):
@@ -167,6 +149,11 @@ class Method(Protocol):
         """Name of the method from whose recorded data this one learns; None for its own."""
         ...
 
-    def prepare(self, bench: Bench) -> AbstractContextManager[Prepared]:
+    @property
+    def shares(self) -> Shares:
+        """What the model carries, and what the package."""
+        ...
+
+    def prepare(self, context: CellContext) -> AbstractContextManager[Prepared]:
         """Learn, or whatever else comes before problems; resumes what was begun."""
         ...

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import LearnedMethod
+from skillwrapper.evaluation.methods.method import Shares
 from skillwrapper.runs.settings import RunSettings
 
 
@@ -13,4 +14,8 @@ def _choose_uniformly(config: RunSettings) -> RunSettings:
     return config.model_copy(update={"exploration": exploration})
 
 
-NO_HEURISTIC: Final = LearnedMethod("no-heuristic", "No Heuristic", _choose_uniformly)
+_PARTS = Shares(
+    "reads pictures, proposes predicates and skill sequences",
+    "asks, scores and prunes predicates, learns operators, plans",
+)
+NO_HEURISTIC: Final = LearnedMethod("no-heuristic", "No Heuristic", _PARTS, _choose_uniformly)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import LearnedMethod
+from skillwrapper.evaluation.methods.method import Shares
 from skillwrapper.runs.settings import RunSettings
 
 
@@ -13,4 +14,8 @@ def _explore_randomly(config: RunSettings) -> RunSettings:
     return config.model_copy(update={"exploration": exploration})
 
 
-RANDOM_EXPLORATION: Final = LearnedMethod("random", "Random Exploration", _explore_randomly)
+_PARTS = Shares(
+    "reads pictures, proposes predicates",
+    "asks, scores and prunes predicates, learns operators, plans; explores by chance",
+)
+RANDOM_EXPLORATION: Final = LearnedMethod("random", "Random Exploration", _PARTS, _explore_randomly)

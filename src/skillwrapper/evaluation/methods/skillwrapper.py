@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Final
 
-from skillwrapper.evaluation.methods.learned import LearnedMethod
+from skillwrapper.evaluation.methods.learned import WHOLE_METHOD, LearnedMethod
 from skillwrapper.runs.settings import RunSettings
 
 PAPER_ITERATIONS: Final = 5
 PAPER_BUDGET: Final = 15
 """The paper's hyperparameters (Appendix, Hyperparameters)."""
 
-OURS: Final = LearnedMethod("ours", "SkillWrapper (ours)")
+OURS: Final = LearnedMethod("ours", "SkillWrapper (ours)", WHOLE_METHOD)
 
 
 def _paper_budget(config: RunSettings) -> RunSettings:
@@ -19,4 +19,6 @@ def _paper_budget(config: RunSettings) -> RunSettings:
     return config.model_copy(update={"iterations": PAPER_ITERATIONS, "exploration": exploration})
 
 
-OURS_PAPER_BUDGET: Final = LearnedMethod("ours-5x15", "SkillWrapper, 5 x 15", _paper_budget)
+OURS_PAPER_BUDGET: Final = LearnedMethod(
+    "ours-5x15", "SkillWrapper, 5 x 15", WHOLE_METHOD, _paper_budget
+)

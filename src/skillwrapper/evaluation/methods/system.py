@@ -1,7 +1,8 @@
 """System Predicates: operators learned from the simulator's own, true description of states.
 
 Nothing is invented, and start and goal are known exactly, as in the paper. Without universal
-absences the predicates cannot say that nothing lies on an item; with them they can (DESIGN.md D2).
+absences the predicates cannot say that nothing lies on an item; with them they can
+(docs/semantics.md, D2).
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from typing import Any, Final
 
 from skillwrapper.errors import InternalError
 from skillwrapper.evaluation.exact.learning_curves import Stage
-from skillwrapper.evaluation.methods.method import Bench, Prepared
-from skillwrapper.evaluation.problems.readers import StateReader, system_reader
+from skillwrapper.evaluation.exact.state_readers import Situation, StateReader, system_reader
+from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.learning.certification import certify
@@ -24,7 +25,8 @@ from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.transitions.recorded import RecordedTransitions
-from skillwrapper.world.capabilities import Enumerable, Truthful, require
+from skillwrapper.world.capabilities import Settable, Simulable, Truthful, require
+from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode
 from skillwrapper.world.observation import Observation
 
@@ -41,13 +43,19 @@ class RecordedStates:
     reader: StateReader
     states: dict[str, Any] = field(default_factory=dict)
 
-    def add(self, environment: Enumerable, episode: Episode) -> None:
-        """Find out the states of an episode by running it again, without pictures."""
+    def add(self, environment: Environment, episode: Episode) -> None:
+        """Find out the states of an episode by running it again, without pictures.
+
+        Raises:
+            ConfigurationError: if the environment does not tell its states.
+        """
+        purpose = "learning from true states"
+        simulable = require(environment, Simulable, purpose)
         environment.reset(seed=episode.seed, scene=episode.scene.name)
-        state = environment.get_state()
+        state = require(environment, Settable, purpose).get_state()
         for transition in episode.transitions:
             self.states[transition.before.key] = state
-            _, state = environment.successor(state, transition.instance)
+            _, state = simulable.successor(state, transition.instance)
             self.states[transition.after.key] = state
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
@@ -55,7 +63,9 @@ class RecordedStates:
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         """True labels (observations, atoms)."""
-        return self.reader.read(space, [self.states[o.key] for o in observations])
+        return self.reader.read(
+            space, [Situation.seen(o, self.states[o.key]) for o in observations]
+        )
 
 
 @dataclass(frozen=True)
@@ -74,29 +84,41 @@ class SystemMethod:
     absences: bool
     source: str | None = "ours"
 
+    @property
+    def shares(self) -> Shares:
+        """The model explored for the method that this one learns from."""
+        return Shares(
+            "proposes the skill sequences of the source", "learns operators over true facts, plans"
+        )
+
     @contextmanager
-    def prepare(self, bench: Bench) -> Iterator[Prepared]:
-        """Learn from the recorded episodes, one after the other."""
-        if bench.source is None:
+    def prepare(self, context: CellContext) -> Iterator[Prepared]:
+        """Learn from the recorded episodes, one after the other.
+
+        Raises:
+            ConfigurationError: if the domain has no system predicates, or its states are not told.
+        """
+        if context.source is None:
             raise InternalError(f"{self.name}: expected a source cell, got none; please report it")
-        reader = system_reader(require(bench.environment, Truthful, f"the method {self.name}"))
-        episodes = RunArchive.open(bench.source / "run").episodes()
+        predicates = context.package.system_predicates
+        reader = system_reader(require(context.environment, Truthful, f"the method {self.name}"))
+        episodes = RunArchive.open(context.source / "run").episodes()
         recorded = RecordedStates(reader)
-        done = RecordedTransitions(bench.environment.domain)
+        done = RecordedTransitions(context.environment.domain)
         learner = FaithfulLearner(LearnerSettings(absences=self.absences))
         fitter = Fitter(Labeller(done, recorded), learner)
         stages = []
         for episode in episodes:
-            recorded.add(bench.environment, episode)
+            recorded.add(context.environment, episode)
             done.add(episode)
-            fit = fitter.fit(bench.package.system_predicates)
+            fit = fitter.fit(predicates)
             stages.append(Stage(len(done), fit.model))
-        solver = bench.solver(fit.model, reader, reader)
-        states = bench.truth.space.states
+        exact = context.exact.labelled(reader)
+        solver = context.solver(fit.model, reader, exact)
         yield Prepared(
             solver,
             tuple(stages),
-            lambda atoms: reader.read(atoms, states),
+            exact,
             episodes,
             recorded,
             self.absences,

@@ -6,16 +6,16 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Final, Protocol
 
-from skillwrapper.evaluation.methods.method import Bench, Prepared
+from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
 from skillwrapper.evaluation.problems.causes import Cause, Diagnosis
+from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
-from skillwrapper.evaluation.problems.results import ProblemResult
+from skillwrapper.evaluation.problems.results import Judge, ProblemResult
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
 from skillwrapper.runs.archive import make_archive
 from skillwrapper.runs.model_sessions import open_session
-from skillwrapper.world.capabilities import Enumerable
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -29,10 +29,17 @@ class Actor(Protocol):
 
 @dataclass(frozen=True)
 class _Run:
-    """What was done for one problem, and what the model said in the end."""
+    """What was done for one problem, and what the model said in the end.
+
+    Attributes:
+        history: skills with whether they succeeded.
+        answer: the last answer; None if skills ran out first, or nothing could be asked.
+        shown: whether there was a picture of the goal to ask with.
+    """
 
     history: tuple[tuple[SkillInstance, bool], ...]
     answer: ActionAnswer | None
+    shown: bool = True
 
 
 @dataclass(frozen=True)
@@ -40,13 +47,13 @@ class VilaSolver:
     """Asks after every skill; only the first action of a plan is executed.
 
     Attributes:
-        environment: where skills are executed.
+        world: where problems are set up, skills executed and goals judged.
         actor: names actions.
         actions: at most so many skills are executed.
         calls: how many questions were put to models so far.
     """
 
-    environment: Enumerable
+    world: ProblemWorld
     actor: Actor
     actions: int
     calls: Callable[[], int] = lambda: 0
@@ -57,11 +64,10 @@ class VilaSolver:
         A goal that is reached without the model noticing is not solved.
         """
         started, calls = time.monotonic(), self.calls()
-        goal = self.environment.state_from_data(problem.goal)
-        run = self._act(problem, goal)
+        run = self._act(problem)
+        truly = self.world.is_reached(problem)
         claimed = run.answer is not None and run.answer.impossible
-        reached = run.answer is not None and run.answer.done
-        reached = reached and bool(self.environment.get_state() == goal)
+        reached = run.answer is not None and run.answer.done and truly is not False
         impossible = problem.kind is ProblemClass.IMPOSSIBLE
         return ProblemResult.of(
             problem,
@@ -76,14 +82,18 @@ class VilaSolver:
             seconds=time.monotonic() - started,
             calls=self.calls() - calls,
             plan=tuple(str(instance) for instance, _ in run.history),
+            judge=Judge.MODEL if truly is None else Judge.ENVIRONMENT,
         )
 
-    def _act(self, problem: Problem, goal: Any) -> _Run:
-        start = self.environment.state_from_data(problem.initial)
-        picture = self.environment.set_state(goal, seed=problem.layout)
-        seen = self.environment.set_state(start)
-        domain = self.environment.domain
-        objects = self.environment.scene.objects
+    def _act(self, problem: Problem) -> _Run:
+        start, goal = self.world.start(problem), self.world.goal(problem)
+        if goal is None:
+            return _Run((), None, shown=False)
+        picture = goal.look()
+        if goal.state is not None:
+            start = self.world.start(problem)  # to look at the goal, the world was put into it
+        seen, environment = start.look(), self.world.environment
+        domain, objects = environment.domain, environment.scene.objects
         history: tuple[tuple[SkillInstance, bool], ...] = ()
         # Once more than actions are allowed: the last one may have been the last that was needed.
         for _ in range(self.actions + 1):
@@ -93,7 +103,7 @@ class VilaSolver:
                 return _Run(history, answer)
             if len(history) == self.actions:
                 break
-            outcome = self.environment.execute(answer.plan[0])
+            outcome = environment.execute(answer.plan[0])
             history = (*history, (answer.plan[0], outcome.success))
             seen = outcome.observation
         return _Run(history, None)
@@ -102,6 +112,8 @@ class VilaSolver:
 def _diagnose(run: _Run) -> Diagnosis:
     failed = sum(not success for _, success in run.history)
     detail = f"{len(run.history)} skills, {failed} of them failed"
+    if not run.shown:
+        return Diagnosis(Cause.GOAL_NOT_SHOWN, "there is no picture of the goal to ask with")
     if run.answer is None:
         return Diagnosis(Cause.OUT_OF_STEPS, detail)
     if run.answer.impossible:
@@ -125,17 +137,22 @@ class VilaMethod:
     title: str = "ViLa"
     source: str | None = None
 
+    @property
+    def shares(self) -> Shares:
+        """The model does everything."""
+        return Shares("names every action", "executes them", decided_by_model=True)
+
     @contextmanager
-    def prepare(self, bench: Bench) -> Iterator[Prepared]:
+    def prepare(self, context: CellContext) -> Iterator[Prepared]:
         """Open the model."""
-        config = bench.config()
-        archive = make_archive(bench.folder / "run", config, bench.environment.domain)
+        config = context.config()
+        archive = make_archive(context.folder / "run", config, context.environment.domain)
         with open_session(config, archive.layout.calls, learning=False) as session:
             yield Prepared(
                 VilaSolver(
-                    bench.environment,
+                    context.world,
                     session.assistant,
-                    bench.settings.actions,
+                    context.settings.actions,
                     lambda: session.counter.answered,
                 ),
                 calls=archive,

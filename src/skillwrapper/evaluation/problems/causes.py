@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from skillwrapper.evaluation.problems.readers import StateReader
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates
 from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, GroundModel, Labels
 from skillwrapper.planning.result import SkillPlan
-from skillwrapper.world.capabilities import Enumerable
+from skillwrapper.world.skills import SkillInstance
 
 
 class Cause(StrEnum):
@@ -37,6 +37,14 @@ class Cause(StrEnum):
     """The method says that the goal is reached, which it is not."""
     OUT_OF_STEPS = "out of steps"
     """The method used all skills that it may execute."""
+    NO_PLAN = "no plan"
+    """The planner finds no plan, and nobody knows the truth about states that would tell why."""
+    GOAL_NOT_REACHED = "goal not reached"
+    """All skills of a plan succeeded, but the goal does not hold; likewise."""
+    GOAL_NOT_EXPRESSIBLE = "goal not expressible"
+    """The model has no predicates for the goal."""
+    GOAL_NOT_SHOWN = "goal not shown"
+    """The method needs a picture of the goal, and there is none."""
     UNUSABLE_ANSWER = "unusable answer"
     """The model's answer could not be understood."""
 
@@ -59,19 +67,18 @@ class Diagnostician:
     """Looks for the first thing that is wrong with a model.
 
     Attributes:
-        environment: tells what really happens.
+        truth: all states of the scene, and how the model's predicates are labelled without error.
         model: the ground model.
-        truth: labels of the model's predicates without error.
     """
 
-    environment: Enumerable
+    truth: LabelledStates
     model: GroundModel
-    truth: StateReader
 
     def misread(self, cause: Cause, read: Labels, state: Any) -> Diagnosis | None:
         """Where the labels (atoms,) that were read off a picture are wrong or unknown."""
         true = self._labels(state)
-        if not ((read != true) | (read == UNKNOWN)).any():
+        known = true != UNKNOWN  # of what nobody knows, nobody can say that it is misread
+        if not (((read != true) & known) | (read == UNKNOWN)).any():
             return None
         return Diagnosis(cause, _difference(self.model.space, read, true))
 
@@ -81,11 +88,11 @@ class Diagnostician:
             return None
         return Diagnosis(Cause.PREDICATE_MISSING, "start and goal have the same labels")
 
-    def no_plan(self, start: Any, solution: SkillPlan) -> Diagnosis:
-        """Why there is no abstract plan, though a true solution is known."""
-        state = start
-        for step in solution:
-            _, after = self.environment.successor(state, step)
+    def no_plan(self, start: Any, goal: Any) -> Diagnosis:
+        """Why there is no abstract plan, though there may be a true solution."""
+        state, space = start, self.truth.states.space
+        for step in space.path_between(space.index[start], space.index[goal]) or ():
+            after = self._after(state, step)[1]
             before, expected = self._labels(state), self._labels(after)
             following = self.model.successors(before[np.newaxis], step)
             if not len(following):
@@ -100,7 +107,7 @@ class Diagnostician:
         """Why a plan of the model does not lead to the goal, though all labels were right."""
         imagined, state = self._labels(start)[np.newaxis], start
         for step in plan:
-            succeeded, state = self.environment.successor(state, step)
+            succeeded, state = self._after(state, step)
             if not succeeded:
                 return Diagnosis(Cause.SKILL_FAILED, f"{step} is predicted to work, and fails")
             true = self._labels(state)
@@ -114,8 +121,12 @@ class Diagnostician:
         return Diagnosis(Cause.EFFECT_WRONG, "what was reached is predicted to be the goal")
 
     def _labels(self, state: Any) -> Labels:
-        labels: Labels = self.truth.read(self.model.space, [state])[0]
+        row = self.truth.states.space.index[state]
+        labels: Labels = self.truth.labels(self.model.space)[row]
         return labels
+
+    def _after(self, state: Any, step: SkillInstance) -> tuple[bool, Any]:
+        return self.truth.states.environment.successor(state, step)
 
 
 def _difference(space: AtomSpace, found: Labels, expected: Labels) -> str:

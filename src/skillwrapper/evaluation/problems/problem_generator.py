@@ -10,7 +10,7 @@ from functools import partial
 
 import numpy as np
 
-from skillwrapper.domains.package import DomainPackage
+from skillwrapper.domains.package import DomainPackage, Impossibility
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.exact.state_space import StateSpace
 from skillwrapper.evaluation.problems.problems import (
@@ -27,13 +27,18 @@ _LENGTHS = {
     ProblemClass.EASY: range(1, LONGEST_EASY + 1),
     ProblemClass.HARD: range(LONGEST_EASY + 1, LONGEST_HARD + 1),
 }
+_PROVEN = Impossibility(
+    ("proven",),
+    lambda start, goal: ("proven", "no sequence of skills leads there (all were tried)"),
+)
+"""What can be said where the domain's package gives no reasons."""
 _FIRST_LAYOUT, _LAYOUTS = 500_000, 400_000
 """Layouts of problems are none of those that a run with a small seed resets to."""
 
 
 @dataclass
 class ProblemGenerator:
-    """Draws problems with a known optimal length, or proven to be impossible.
+    """Draws problems in the present scene, with a known optimal length or proven to be impossible.
 
     Lengths and kinds of impossibility take turns, and every second start is the standard one;
     among the goals that fit, one of the structures used least is taken.
@@ -53,6 +58,8 @@ class ProblemGenerator:
     def __post_init__(self) -> None:
         self._chance = random.Random(f"problems {self.seed}")
         self._space = StateSpace.of(self.environment)
+        has_reasons = self.package.has("impossibility")
+        self._impossibility = self.package.impossibility if has_reasons else _PROVEN
 
     def generate(self, easy: int, hard: int, impossible: int) -> ProblemSet:
         """A set with so many problems of each class.
@@ -79,16 +86,16 @@ class ProblemGenerator:
             yield self._problem(kind, number, start, goal, length=length)
 
     def _impossible(self, count: int) -> Iterator[Problem]:
-        kinds = self.package.impossibility.kinds
+        known = self._impossibility
         for number in range(count):
-            kind = kinds[number % len(kinds)]
+            kind = known.kinds[number % len(known.kinds)]
             start, goal = self._draw(
                 partial(self._unreachable, kind),
                 f"impossible problems of the kind {kind}",
                 standard=False,
             )
             states = self._space.states
-            found = self.package.impossibility.explain(states[start], states[goal])
+            found = known.explain(states[start], states[goal])
             reason = found[1] if found else ""
             yield self._problem(ProblemClass.IMPOSSIBLE, number, start, goal, reason=reason)
 
@@ -113,7 +120,7 @@ class ProblemGenerator:
 
     def _unreachable(self, kind: str, start: int) -> list[int]:
         states = self._space.states
-        explain = self.package.impossibility.explain
+        explain = self._impossibility.explain
         reached = self._space.distances_from(start)
         return [
             goal
@@ -140,7 +147,7 @@ class ProblemGenerator:
         length: int | None = None,
         reason: str = "",
     ) -> Problem:
-        states = self._space.states
+        states, domain = self._space.states, self.environment.domain
         return Problem(
             name=f"{kind}-{number + 1:02d}",
             kind=kind,
@@ -149,4 +156,5 @@ class ProblemGenerator:
             goal=self.environment.state_to_data(states[goal]),
             length=length,
             reason=reason,
+            scene=self.environment.scene.name if len(domain.scenes) > 1 else None,
         )

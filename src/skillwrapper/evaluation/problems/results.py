@@ -4,10 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 from skillwrapper.evaluation.problems.causes import Cause, Diagnosis
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
+
+
+class Judge(StrEnum):
+    """Who said that a goal is reached (docs/semantics.md, D25)."""
+
+    ENVIRONMENT = "environment"
+    MODEL = "model"
+    """Reached, as far as the learned model can tell."""
 
 
 @dataclass(frozen=True)
@@ -20,8 +29,8 @@ class ProblemResult:
         solved: the goal was reached; of an impossible problem, that it was recognised.
         claimed_impossible: the method says that there is no solution. Of methods with a planner
             only a proof within the model counts.
-        budget: plans tried, 10 if the problem was not solved (DESIGN.md D13); None for methods
-            that make no plans, and for impossible problems.
+        budget: plans tried, 10 if the problem was not solved (docs/semantics.md, D13); None for
+            methods that make no plans, and for impossible problems.
         length: number of skills of the plan that solved it; None if none did.
         optimal: number of skills of an optimal solution; None if there is none.
         executions: skills executed.
@@ -32,6 +41,7 @@ class ProblemResult:
         cause: why it was not solved; None if it was.
         detail: the same in words.
         plan: the first plan, or what was executed; for reports.
+        judge: who says whether the goal was reached.
     """
 
     problem: str
@@ -49,6 +59,7 @@ class ProblemResult:
     cause: Cause | None = None
     detail: str = ""
     plan: tuple[str, ...] = ()
+    judge: Judge = Judge.ENVIRONMENT
 
     @classmethod
     def of(
@@ -85,5 +96,6 @@ class ProblemResult:
                 "kind": ProblemClass(data["kind"]),
                 "cause": None if cause is None else Cause(cause),
                 "plan": tuple(data["plan"]),
+                "judge": Judge(data.get("judge", Judge.ENVIRONMENT)),
             }
         )

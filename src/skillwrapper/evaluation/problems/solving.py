@@ -3,33 +3,48 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from itertools import product
 
-from skillwrapper.evaluation.exact.state_space import StateSpace
+from skillwrapper.errors import UserError
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates
+from skillwrapper.evaluation.exact.state_readers import Situation, StateReader
 from skillwrapper.evaluation.problems.causes import Cause, Diagnosis, Diagnostician
+from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.evaluation.problems.problems import Problem, ProblemClass
-from skillwrapper.evaluation.problems.readers import StateReader
-from skillwrapper.evaluation.problems.results import ProblemResult
+from skillwrapper.evaluation.problems.results import Judge, ProblemResult
 from skillwrapper.grounding import GroundModel, Labels
-from skillwrapper.planning.execution import ExecutionReport, attempt
-from skillwrapper.planning.goals import goal_from_state
+from skillwrapper.planning.execution import PLANNING_BUDGET, ExecutionReport, attempt
+from skillwrapper.planning.goals import Goal, goal_from_state, parse_goal
 from skillwrapper.planning.planner import Planner
 from skillwrapper.planning.problem import PlanningProblem
-from skillwrapper.planning.result import PlanningResult, PlanningStatus, SkillPlan
+from skillwrapper.planning.result import PlanningResult, PlanningStatus
 from skillwrapper.symbols import AbstractModel
-from skillwrapper.world.capabilities import Enumerable
 
 
 @dataclass(frozen=True)
-class _Read:
-    """Start and goal as states and as the method reads them."""
+class _Task:
+    """A problem as the method reads it.
 
-    start: Any
-    goal: Any
+    Attributes:
+        problem: as given.
+        ground: the model over the objects of the scene.
+        start: where it begins.
+        start_labels: as read (atoms,).
+        goal: what is wanted; None if it is given in literals only.
+        goal_labels: as read (atoms,); None likewise.
+        wanted: the goal to plan for.
+    """
+
+    problem: Problem
+    ground: GroundModel
+    start: Situation
     start_labels: Labels
-    goal_labels: Labels
+    goal: Situation | None
+    goal_labels: Labels | None
+    wanted: Goal
 
 
 @dataclass(frozen=True)
@@ -37,31 +52,30 @@ class ModelSolver:
     """Solves problems with an abstract model and a planner.
 
     Attributes:
-        environment: where plans are executed.
-        space: its state space, which knows true solutions.
+        world: where problems are set up, plans executed and goals judged.
         model: the model.
         reader: reads start and goal.
-        truth: reads the same without error, to tell causes.
         planner: finds plans.
+        truth: all states with labels without error, by scene, to tell causes; may be empty.
         calls: how many questions were put to models so far.
     """
 
-    environment: Enumerable
-    space: StateSpace
+    world: ProblemWorld
     model: AbstractModel
     reader: StateReader
-    truth: StateReader
     planner: Planner
+    truth: Mapping[str, LabelledStates] = field(default_factory=dict)
     calls: Callable[[], int] = lambda: 0
 
     def solve(self, problem: Problem) -> ProblemResult:
-        """Solve one problem (DESIGN.md D12, D13)."""
+        """Solve one problem (docs/semantics.md, D12, D13)."""
         started, calls = time.monotonic(), self.calls()
-        ground = self._ground(problem)
-        read = self._read(problem, ground)
-        goal = goal_from_state(ground.space, read.goal_labels)
-        found = self.planner.solve(PlanningProblem.of(ground, read.start_labels, goal))
-        report = self._execute(problem, found, read)
+        try:
+            task = self._read(problem)
+        except UserError as error:
+            return _not_understood(problem, str(error), time.monotonic() - started)
+        found = self.planner.solve(PlanningProblem.of(task.ground, task.start_labels, task.wanted))
+        report, judge = self._execute(task, found)
         calls = self.calls() - calls
         claimed = found.status is PlanningStatus.UNSOLVABLE
         impossible = problem.kind is ProblemClass.IMPOSSIBLE
@@ -69,7 +83,7 @@ class ModelSolver:
         return ProblemResult.of(
             problem,
             solved=solved,
-            diagnosis=None if solved else self._diagnose(ground, read, found),
+            diagnosis=None if solved else self._diagnose(task, found, report),
             claimed_impossible=claimed,
             budget=None if impossible else report.budget,
             length=len(report.attempts[-1].plan) if report.solved else None,
@@ -79,43 +93,84 @@ class ModelSolver:
             seconds=time.monotonic() - started,
             calls=calls,
             plan=tuple(map(str, found.plans[0])) if found.plans else (),
+            judge=judge,
         )
 
-    def _ground(self, problem: Problem) -> GroundModel:
-        state = self.environment.state_from_data(problem.initial)
-        self.environment.set_state(state, seed=problem.layout)
-        objects = self.environment.scene.objects
-        return GroundModel.of(self.model, objects)
+    def _read(self, problem: Problem) -> _Task:
+        """Look at start and goal."""
+        start, goal = self.world.start(problem), self.world.goal(problem)
+        ground = GroundModel.of(self.model, self.world.environment.scene.objects)
+        written = parse_goal(problem.goal_literals, ground.space) if problem.goal_literals else None
+        shown = [start] if goal is None else [start, goal]
+        labels = self.reader.read(ground.space, shown)
+        goal_labels = None if goal is None else labels[1]
+        seen = None if goal is None else goal_from_state(ground.space, labels[1])
+        wanted = _together([part for part in (seen, written) if part is not None])
+        return _Task(problem, ground, start, labels[0], goal, goal_labels, wanted)
 
-    def _read(self, problem: Problem, ground: GroundModel) -> _Read:
-        states = [self.environment.state_from_data(d) for d in (problem.initial, problem.goal)]
-        labels = self.reader.read(ground.space, states)
-        return _Read(*states, *labels)
+    def _execute(self, task: _Task, found: PlanningResult) -> tuple[ExecutionReport, Judge]:
+        judges = set()
 
-    def _execute(self, problem: Problem, found: PlanningResult, read: _Read) -> ExecutionReport:
-        return attempt(
-            self.environment,
-            lambda: self.environment.set_state(read.start, seed=problem.layout),
-            found.plans,
-            lambda: bool(self.environment.get_state() == read.goal),
-        )
+        def is_reached() -> bool:
+            truly = self.world.is_reached(task.problem)
+            judges.add(Judge.MODEL if truly is None else Judge.ENVIRONMENT)
+            if truly is not None:
+                return truly
+            space = task.ground.space
+            return task.wanted.holds(space, self.reader.read(space, [self.world.now()])[0])
 
-    def _diagnose(self, ground: GroundModel, read: _Read, found: PlanningResult) -> Diagnosis:
+        environment = self.world.environment
+        prepare = partial(self.world.start, task.problem)
+        report = attempt(environment, prepare, found.plans, is_reached)
+        return report, judges.pop() if judges else Judge.ENVIRONMENT
+
+    def _diagnose(self, task: _Task, found: PlanningResult, report: ExecutionReport) -> Diagnosis:
         if found.status in (PlanningStatus.TIMEOUT, PlanningStatus.ERROR):
             detail = f"{found.status} after {found.seconds:.1f} s"
             return Diagnosis(Cause.PLANNER_OUT_OF_TIME, detail)
-        expert = Diagnostician(self.environment, ground, self.truth)
-        misread = expert.misread(Cause.START_MISREAD, read.start_labels, read.start)
-        misread = misread or expert.misread(Cause.GOAL_MISREAD, read.goal_labels, read.goal)
+        truth = self.truth.get(self.world.environment.scene.name)
+        if truth is None or task.goal is None or task.goal_labels is None:
+            return _seen_from_outside(found, report)
+        states = (task.start.state, task.goal.state)
+        if any(state not in truth.states.space.index for state in states):
+            return _seen_from_outside(found, report)
+        expert = Diagnostician(truth, task.ground)
+        misread = expert.misread(Cause.START_MISREAD, task.start_labels, states[0])
+        misread = misread or expert.misread(Cause.GOAL_MISREAD, task.goal_labels, states[1])
         if misread is not None:
             return misread
         if not found.plans:
-            return expert.no_plan(read.start, self._solution(read))
-        return expert.blind(read.start, read.goal) or expert.bad_plan(
-            read.start, read.goal, found.plans[0]
-        )
+            return expert.no_plan(*states)
+        return expert.blind(*states) or expert.bad_plan(*states, found.plans[0])
 
-    def _solution(self, read: _Read) -> SkillPlan:
-        states = self.space.states
-        found = self.space.path_between(states.index(read.start), states.index(read.goal))
-        return found or ()
+
+def _together(goals: list[Goal]) -> Goal:
+    """That all goals hold."""
+    combinations = product(*(goal.alternatives for goal in goals))
+    return Goal(tuple(frozenset().union(*parts) for parts in combinations))
+
+
+def _seen_from_outside(found: PlanningResult, report: ExecutionReport) -> Diagnosis:
+    """What went wrong, where nobody knows the truth about states."""
+    if not found.plans:
+        return Diagnosis(Cause.NO_PLAN, f"the planner ended with: {found.status}")
+    first = report.attempts[0]
+    if first.failed_at is not None:
+        return Diagnosis(Cause.SKILL_FAILED, f"{first.plan[first.failed_at]} failed")
+    return Diagnosis(Cause.GOAL_NOT_REACHED, "all skills of the first plan succeeded")
+
+
+def _not_understood(problem: Problem, reason: str, seconds: float) -> ProblemResult:
+    """The model has no words for the goal."""
+    return ProblemResult.of(
+        problem,
+        solved=False,
+        diagnosis=Diagnosis(Cause.GOAL_NOT_EXPRESSIBLE, reason),
+        claimed_impossible=False,
+        budget=None if problem.kind is ProblemClass.IMPOSSIBLE else PLANNING_BUDGET,
+        length=None,
+        executions=0,
+        planning_seconds=0.0,
+        seconds=seconds,
+        calls=0,
+    )

@@ -14,7 +14,7 @@ _Number = TypeVar("_Number", int, float)
 
 
 @dataclass(frozen=True)
-class Bill:
+class CallCosts:
     """What calls took.
 
     Attributes:
@@ -36,18 +36,18 @@ class Bill:
         return dict(vars(self))
 
 
-NOTHING: Final = Bill(0, 0.0, 0, 0, 0.0)
+NOTHING: Final = CallCosts(0, 0.0, 0, 0, 0.0)
 
 
-def learning_bill(run: RunArchive | None) -> Bill | None:
+def learning_costs(run: RunArchive | None) -> CallCosts | None:
     """What a run's iterations took, over all its interruptions; None without a run."""
     if run is None:
         return None
     totals = [t for t in _totals(run) if t.iteration is not None]
-    return _bill(totals) if totals else None
+    return _added(totals) if totals else None
 
 
-def solving_bill(run: RunArchive | None, calls: int, model: str) -> Bill:
+def solving_costs(run: RunArchive | None, calls: int, model: str) -> CallCosts:
     """What solving problems took.
 
     Args:
@@ -58,9 +58,9 @@ def solving_bill(run: RunArchive | None, calls: int, model: str) -> Bill:
     if not calls:
         return NOTHING
     if model == _FREE:
-        return Bill(calls, 0.0, None, None, None)
+        return CallCosts(calls, 0.0, None, None, None)
     totals = [t for t in _totals(run) if t.iteration is None] if run else []
-    return _bill(totals) if totals else Bill(calls, None, None, None, None)
+    return _added(totals) if totals else CallCosts(calls, None, None, None, None)
 
 
 def _totals(run: RunArchive) -> tuple[CallTotals, ...]:
@@ -68,9 +68,9 @@ def _totals(run: RunArchive) -> tuple[CallTotals, ...]:
         return store.totals() if store else ()
 
 
-def _bill(totals: Iterable[CallTotals]) -> Bill:
+def _added(totals: Iterable[CallTotals]) -> CallCosts:
     totals = tuple(totals)
-    return Bill(
+    return CallCosts(
         calls=sum(t.made + t.served for t in totals),
         cost=_sum(totals, lambda t: t.cost),
         input_tokens=_sum(totals, lambda t: t.input_tokens),

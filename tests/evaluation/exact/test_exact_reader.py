@@ -1,4 +1,4 @@
-"""What is read in plain sight is what the embedded model without noise answers."""
+"""What is read without error is what the embedded model without noise answers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from itertools import product
 
 from seen_kitchen import LEXICON, embedded_model, kitchen
 
-from skillwrapper.evaluation.exact.plain_sight import PlainSight
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.evaluation.exact.exact_reader import ExactReader
 from skillwrapper.grounding import UNKNOWN, AtomSpace
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.symbols import Predicate
@@ -14,6 +15,8 @@ from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
 from skillwrapper.world.observation import Observation, Picture
 
+READER = ExactReader.of(find_domain("burger"))
+assert READER is not None
 TYPES = {"item": "pickupable", "station": "station", "robot": "robot"}
 
 
@@ -35,7 +38,7 @@ def test_the_same_labels_as_by_prompts_and_replies() -> None:
     pictures = [world.look(state) for state in world.states[::400]]
     space = AtomSpace(every_concept(), world.domain.objects)
     by_prompts = TruthTable(world.domain, Assistant(ModelSet.of(embedded_model())))
-    labels = PlainSight().labels(space, pictures)
+    labels = READER.labels(space, pictures)
     assert (labels == by_prompts.labels(space, pictures)).all()
     assert (labels[:, -4:] == UNKNOWN).all()
     assert len(space.predicates) > 40
@@ -44,4 +47,4 @@ def test_the_same_labels_as_by_prompts_and_replies() -> None:
 def test_a_picture_of_something_else() -> None:
     blank = Observation((Picture(b"no picture"),))
     space = AtomSpace(every_concept()[:2], kitchen().domain.objects)
-    assert (PlainSight().labels(space, [blank]) == UNKNOWN).all()
+    assert (READER.labels(space, [blank]) == UNKNOWN).all()

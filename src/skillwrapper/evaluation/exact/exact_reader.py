@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from skillwrapper.domains.eyesight import Eyesight
+from skillwrapper.domains.package import DomainPackage
 from skillwrapper.embedded.lexicon import Lexicon
 from skillwrapper.embedded.sight import Eye, Sight, first_sight
 from skillwrapper.grounding import FALSE, TRUE, UNKNOWN, AtomSpace, Labels
@@ -21,12 +22,20 @@ from skillwrapper.world.observation import Observation
 _CODES = {True: TRUE, False: FALSE, None: UNKNOWN}
 
 
-class PlainSight:
-    """Reads pictures without error (``perception.labelling.TruthSource``)."""
+class ExactReader:
+    """Reads pictures without error (``perception.labelling.TruthSource``).
 
-    def __init__(self, domain: str | None = None) -> None:
-        eyes = Eyesight.for_domain(domain)
+    Args:
+        eyes: readers and words of the domain.
+    """
+
+    def __init__(self, eyes: Eyesight) -> None:
         self._eye, self._lexicon = Eye(eyes.readers), Lexicon(eyes.words)
+
+    @classmethod
+    def of(cls, package: DomainPackage) -> ExactReader | None:
+        """The reader of a domain; None if it has no scene reader."""
+        return cls(Eyesight.for_packages([package])) if package.has("scene_reader") else None
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         """Nothing to do: looking costs nothing."""

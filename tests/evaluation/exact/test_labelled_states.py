@@ -10,8 +10,10 @@ import pytest
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
-from skillwrapper.evaluation.exact.state_truth import StateTruth
-from skillwrapper.evaluation.problems.readers import AtomReader
+from skillwrapper.domains.discovery import find_domain
+from skillwrapper.evaluation.exact.exact_reader import ExactReader
+from skillwrapper.evaluation.exact.labelled_states import LabelledStates, SceneStates
+from skillwrapper.evaluation.exact.state_readers import AtomReader, PictureReader
 from skillwrapper.grounding import AtomSpace
 
 
@@ -26,25 +28,31 @@ class FewStates(BurgerEnvironment):
         return False, state
 
 
+def labelled(folder: Path | None = None) -> LabelledStates:
+    reader = ExactReader.of(find_domain("burger"))
+    assert reader is not None
+    return LabelledStates(SceneStates(FewStates()), PictureReader(reader), folder)
+
+
 def test_read_rightly_and_only_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     model = expert_model()
     atoms = AtomSpace(model.predicates, model.domain.objects)
-    truth = StateTruth(FewStates(), tmp_path)
+    truth = labelled(tmp_path)
     labels = truth.labels(atoms)
-    expected = AtomReader(expert_atoms).read(atoms, truth.space.states)
+    expected = AtomReader(expert_atoms).read(atoms, truth.states.situations)
     assert (labels == expected).all()
     assert len(list(tmp_path.glob("*.npy"))) == len(model.predicates)
 
     def refuse(self: object, space: object, observations: object) -> None:
         pytest.fail("read again")
 
-    monkeypatch.setattr("skillwrapper.evaluation.exact.plain_sight.PlainSight.labels", refuse)
+    monkeypatch.setattr("skillwrapper.evaluation.exact.exact_reader.ExactReader.labels", refuse)
     some = AtomSpace(model.predicates[2:4], model.domain.objects)
     columns = [atoms.column[atom] for atom in some.atoms]
     assert (truth.labels(some) == expected[:, columns]).all()
-    assert (StateTruth(FewStates(), tmp_path).labels(atoms) == expected).all()
+    assert (labelled(tmp_path).labels(atoms) == expected).all()
 
 
 def test_no_predicates() -> None:
-    truth = StateTruth(FewStates())
-    assert truth.labels(AtomSpace((), truth.environment.domain.objects)).shape == (5, 0)
+    truth = labelled()
+    assert truth.labels(AtomSpace((), truth.states.scene.objects)).shape == (5, 0)

@@ -6,7 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from skillwrapper.evaluation.benchmark.bills import NOTHING, Bill, learning_bill, solving_bill
+from skillwrapper.evaluation.benchmark.call_costs import (
+    NOTHING,
+    CallCosts,
+    learning_costs,
+    solving_costs,
+)
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.vlm.protocol import Role, Usage
 from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
@@ -31,20 +36,20 @@ def keep(path: Path, *costs: tuple[int | None, float | None]) -> RunArchive:
 
 def test_learning_and_solving_are_told_apart(tmp_path: Path) -> None:
     folder = keep(tmp_path, (1, 0.25), (2, 0.5), (None, 0.125))
-    assert learning_bill(folder) == Bill(3, pytest.approx(0.75), 200, 20, 4.0)
-    assert solving_bill(folder, 1, "openai:x") == Bill(1, pytest.approx(0.125), 100, 10, 2.0)
+    assert learning_costs(folder) == CallCosts(3, pytest.approx(0.75), 200, 20, 4.0)
+    assert solving_costs(folder, 1, "openai:x") == CallCosts(1, pytest.approx(0.125), 100, 10, 2.0)
 
 
 def test_one_unknown_cost_makes_the_sum_unknown(tmp_path: Path) -> None:
     folder = keep(tmp_path, (1, 0.25), (1, None))
-    bill = learning_bill(folder)
-    assert bill is not None
-    assert (bill.calls, bill.cost) == (3, None)
-    assert solving_bill(folder, 4, "openai:x").cost is None
+    costs = learning_costs(folder)
+    assert costs is not None
+    assert (costs.calls, costs.cost) == (3, None)
+    assert solving_costs(folder, 4, "openai:x").cost is None
 
 
 def test_without_calls(tmp_path: Path) -> None:
-    assert learning_bill(None) is None
-    assert learning_bill(RunArchive(tmp_path)) is None
-    assert solving_bill(None, 0, "openai:x") == NOTHING
-    assert solving_bill(None, 5, "embedded") == Bill(5, 0.0, None, None, None)
+    assert learning_costs(None) is None
+    assert learning_costs(RunArchive(tmp_path)) is None
+    assert solving_costs(None, 0, "openai:x") == NOTHING
+    assert solving_costs(None, 5, "embedded") == CallCosts(5, 0.0, None, None, None)
