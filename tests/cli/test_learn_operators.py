@@ -18,6 +18,8 @@ from skillwrapper.world import load_domain
 PAGE = (Path(__file__).parents[2] / "docs" / "operators.md").read_text(encoding="utf-8")
 LINES, PYTHON = re.search(r"```json\n(.*?)```.*```python\n(.*?)```", PAGE, re.DOTALL).groups()
 
+GIVEN = ("moves.jsonl", "--domain", "domain.yaml")
+
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -38,7 +40,7 @@ def command(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
 def test_the_documented_example(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ("moves.jsonl", "--domain", "domain.yaml", "--out", "lamps")
+    words = (*GIVEN, "--out", "lamps")
     assert command(monkeypatch, *words) == 0
     said = capsys.readouterr().out
     assert "Light_1: Light(?hand: hand, ?lamp: lamp)" in said
@@ -50,6 +52,9 @@ def test_the_documented_example(
     assert vocabulary == model.predicates
     assert command(monkeypatch, *words, "--json", "--predicates", "lamps/predicates.yaml") == 0
     told = json.loads(capsys.readouterr().out)
+    assert command(monkeypatch, *words, "--json", "--set", "learning.least_confidence=0.99") == 0
+    assert json.loads(capsys.readouterr().out)["certificate"]["decided"] == 4
+    assert command(monkeypatch, *words) == 0
     assert told["operators"] == ["Light_1", "PutOut_1"]
     written = json.loads((folder / "lamps" / "certificate.json").read_text(encoding="utf-8"))
     assert told["certificate"] == written
@@ -68,7 +73,10 @@ def test_the_documented_python(folder: Path, capsys: pytest.CaptureFixture[str])
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("moves.jsonl", "--domain", "domain.yaml", "--learner", "faithfull"), "did you mean"),
+        (
+            ("moves.jsonl", "--domain", "domain.yaml", "--set", "learning.learner=x"),
+            "unknown learner",
+        ),
         (("moves.jsonl", "--domain", "nowhere/domain.yaml"), "nowhere"),
         (("bad.jsonl", "--domain", "domain.yaml"), "bad.jsonl:2: unknown skill 'Lite'; did you"),
         (("absent.jsonl", "--domain", "domain.yaml"), "absent.jsonl: cannot be read"),

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from skillwrapper.cli.output import JsonFlag, print_json, results
+from skillwrapper.cli.setting_options import ConfigOption, SetOption, run_settings
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.files.writing import write_json
 from skillwrapper.learning.certification import Certificate, certify
@@ -40,13 +41,16 @@ def learn_from_file(
         Path | None,
         typer.Option(help="predicates.yaml with types and meanings; default: from the atoms."),
     ] = None,
-    learner: Annotated[str, typer.Option(help="Who learns.")] = "faithful",
+    config: ConfigOption = None,
+    assignments: SetOption = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Learn operators from transitions whose labels are known; no picture, no model."""
+    settings = run_settings(config, {"domain": ("--domain", domain)}, assignments or ()).learning
     declared = find_domain(domain).domain
     vocabulary = read_predicates(predicates, declared) if predicates is not None else None
-    fit = learn_operators(read_transitions(transitions, declared, vocabulary), learner=learner)
+    labelled = read_transitions(transitions, declared, vocabulary)
+    fit = learn_operators(labelled, learner=settings.learner, settings=settings)
     certificate, untested = certify(fit), find_untested(fit)
     write_model(out, fit.model)
     write_json(out / "certificate.json", _checked(certificate, untested))
