@@ -18,12 +18,14 @@ _LABEL = re.compile(
 )
 _DONE = re.compile(
     r"\W{0,5}(?:done|task (?:is )?(?:done|complete|completed|finished)"
-    r"|(?:the )?goal (?:is |has been )?(?:already )?reached)\W{0,5}",
+    r"|(?:the )?goal (?:is |has been )?(?:already )?reached)"
+    r"(?: ?[:=] ?(?:true|yes))?\W{0,5}",
     re.IGNORECASE,
 )
 _IMPOSSIBLE = re.compile(
     r"\W{0,5}(?:(?:the |this )?(?:task|goal) (?:is|seems) )?"
-    r"(?:impossible|infeasible|unsolvable|not possible)(?: to (?:solve|reach))?\W{0,5}",
+    r"(?:impossible|infeasible|unsolvable|not possible)(?: to (?:solve|reach))?"
+    r"(?: ?[:=] ?(?:true|yes))?\W{0,5}",
     re.IGNORECASE,
 )
 

@@ -12,7 +12,7 @@ from skillwrapper.vlm.parsing.names import words_of
 _TOKEN = re.compile(
     r"(?<![\w?-])([A-Za-z][\w-]*+)( ?)\(|[()\]]|(?<![\w?-])([A-Za-z][\w-]*+)\[(?=[?A-Za-z])"
 )
-_NAME = re.compile(r"\??[A-Za-z][\w-]*+")
+_NAME = re.compile(r"\??[A-Za-z][\w-]*+(?:::?[A-Za-z][\w-]*+)?")
 _DECLARED = re.compile(r" ?:= ?| ?::? ?| ?= ?| - | of type | is an? | as ")
 _REMARK = re.compile(r"\([^()]{0,200}\)")
 _SEPARATOR = re.compile(r"[,;]")
@@ -132,7 +132,8 @@ def _typed(part: str, *, spaced: bool = False) -> tuple[str, ...]:
         spaced: whether blanks alone separate arguments, as in Lisp.
     """
     words = part.split()
-    if not spaced and ("?" not in part or len(words) < 2) and words.count("-") < 2:
+    typed = len(words) > 1 and ("?" in part or all(":" in word[1:-1] for word in words))
+    if not (spaced or typed or words.count("-") > 1):
         return (part,)
     arguments: list[str] = []
     pending: list[str] = []
@@ -145,6 +146,6 @@ def _typed(part: str, *, spaced: bool = False) -> tuple[str, ...]:
             pending.append(word)
         else:
             return (part,)
-    if pending and not spaced and not all(word.startswith("?") for word in pending):
+    if not spaced and not all(word.startswith("?") or ":" in word for word in pending):
         return (part,)
     return (*arguments, *pending)

@@ -21,6 +21,7 @@ _NAME = re.compile(r"[\"']?([A-Za-z][\w-]{0,80}(?: [A-Za-z][\w-]{0,80}){0,5})[\"
 _NULLARY = re.compile(
     r"[\"']?([A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8})[\"']? ?(?=[:=|]|- |->)"
 )
+_BARE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8}")
 _OTHER_SIGNATURE = re.compile(r"\(|[A-Za-z][\w-]{0,80}\[")
 """The manner of Lisp, and square brackets."""
 _SEPARATOR = re.compile(
@@ -83,16 +84,21 @@ def parse_predicates(reply: str, names: ParameterNames) -> ParsedPredicates:
 
 
 def _proposals(lines: Sequence[str]) -> Iterator[_Proposal]:
-    texts = [_without(_LABEL, line) for line in lines]
+    texts = [_without(_LABEL, line.lstrip("\"' ")) for line in lines]
     for number, text in enumerate(texts):
+        below = texts[number + 1 : number + 2 + _LOOK_AHEAD]
         read = _read_signature(text)
         if read is None:
+            name = text.strip("\"' ")
+            if _BARE_NAME.fullmatch(name) and (semantics := _labelled_meaning(below)):
+                yield _Proposal(name, (), semantics)
             continue
         name, parameters, rest = read
+        rest = rest.lstrip("\"' ")
         separator = _SEPARATOR.match(rest)
         semantics = _tidy(rest[separator.end() :]) if separator else ""
         if not semantics and not rest.strip("|\"',.:;=-> "):
-            semantics = _semantics_below(texts[number + 1 : number + 2 + _LOOK_AHEAD])
+            semantics = _labelled_meaning(below) or _meaning_in_prose(below)
             yield _Proposal(name, parameters, semantics)
         elif semantics:
             yield _Proposal(name, parameters, semantics)
@@ -113,15 +119,20 @@ def _read_signature(text: str) -> tuple[str, tuple[str, ...], str] | None:
     return (nullary.group(1), (), text[nullary.end() :]) if nullary else None
 
 
-def _semantics_below(texts: Sequence[str]) -> str:
-    """The meaning in one of the next lines: labelled, or the next line of prose."""
+def _labelled_meaning(texts: Sequence[str]) -> str:
+    """The meaning on one of the next lines, behind or below a word like ``Meaning:``."""
     near = [text for text in texts if text][:_LOOK_AHEAD]
-    labelled = next((text for text in near if _MEANING.match(text)), None)
-    if labelled is not None:
-        return _tidy(labelled)
-    if near and " " in near[0] and not find_calls(near[0]) and near[0][-1] not in ":?":
-        return _tidy(near[0].removeprefix(":").removeprefix("- "))
+    for number, text in enumerate(near):
+        if _MEANING.match(text):
+            return _tidy(text) or _meaning_in_prose(near[number + 1 :])
     return ""
+
+
+def _meaning_in_prose(texts: Sequence[str]) -> str:
+    """The meaning on the next line, if that is prose."""
+    line = next((text for text in texts if text), "")
+    is_prose = " " in line and not find_calls(line) and line[-1] not in ":?"
+    return _tidy(line.removeprefix(":").removeprefix("- ")) if is_prose else ""
 
 
 def _without(pattern: re.Pattern[str], text: str) -> str:

@@ -143,7 +143,7 @@ def _cells(line: Line) -> list[str]:
 
 
 def _block(lines: Sequence[Line], start: int) -> tuple[list[Line], int]:
-    """A block of fields as one line, or the line itself; and where it ends."""
+    """A block of fields as one line, a single field as what it holds; and where it ends."""
     record: dict[str, str] = {}
     last, end = "", start + 1
     for number in range(start, len(lines)):
@@ -151,10 +151,12 @@ def _block(lines: Sequence[Line], start: int) -> tuple[list[Line], int]:
         key = fold(line.key)
         if key in _FIELDS and (key in NAMES) is not bool(record) and key not in record:
             last, record[key] = key, line.value
-        elif last in ARGUMENTS and line.listed and line.text:
+        elif last in ARGUMENTS and line.listed and line.text and key not in NAMES:
             record[last] = f"{record[last]}, {line.text}".strip(", ")
         elif line.text or not record:
             break
         end = number + 1 if line.text else end
-    said = entry(record) if len(record) > 1 else None
-    return ([plain_line(said)], end) if said else ([lines[start]], start + 1)
+    if len(record) > 1:
+        return [plain_line(entry(record) or "")], end
+    only = lines[start]
+    return [only._replace(text=only.value or only.text)], start + 1

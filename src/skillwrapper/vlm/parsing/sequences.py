@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from skillwrapper.vlm.parsing.instances import Step, instance_reader
+from skillwrapper.vlm.parsing.instances import InstanceReader, Step, instance_reader
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.vlm.parsing.markup import Line
 from skillwrapper.world.skills import Skill, SkillInstance
@@ -36,11 +36,8 @@ class ParsedSequences:
 
 class _Listed(NamedTuple):
     line: Line
+    is_heading: bool
     steps: tuple[Step, ...]
-
-    @property
-    def is_heading(self) -> bool:
-        return _HEADING.match(self.line.text) is not None
 
 
 def parse_sequences(
@@ -48,7 +45,7 @@ def parse_sequences(
 ) -> ParsedSequences:
     """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
     reader = instance_reader(tuple(skills), tuple(objects))
-    lines = [_Listed(line, reader.steps(line.text)) for line in reply_lines(reply)]
+    lines = [_listed(line, reader) for line in reply_lines(reply)]
     sequences, unusable = [], []
     for group in _group(lines):
         steps = []
@@ -62,6 +59,13 @@ def parse_sequences(
     if not sequences and not unusable:
         unusable.append(f"no skills in the reply: '{excerpt(reply)}'")
     return ParsedSequences(tuple(sequences), tuple(unusable))
+
+
+def _listed(line: Line, reader: InstanceReader) -> _Listed:
+    heading = _HEADING.match(line.text)
+    text = line.text[heading.end() :].lstrip(" :.)=[-") if heading else line.text
+    is_title = line.titled and "(" not in text and heading is None
+    return _Listed(line, heading is not None, () if is_title else reader.steps(text))
 
 
 def _group(lines: list[_Listed]) -> list[list[Step]]:

@@ -188,7 +188,7 @@ def _said_of_one(before: str, after: str) -> Reading:
 
 def _belongs_to_left(gap: str) -> bool:
     """Whether what stands between two statements is tied to the first: ``a(): true, b()``."""
-    gap = gap.strip()
+    gap = gap.strip(" \"'")
     return gap.startswith((":", "=", "is ", "-", "|")) and not gap.endswith(":")
 
 

@@ -115,7 +115,7 @@ def _lines(data: Any, depth: int) -> Iterator[str]:
 
 
 def _list_lines(items: list[Any], depth: int) -> Iterator[str]:
-    pair = _judged_pair(items)
+    pair = _judged_pair(items) or _named_list(items)
     if pair:
         yield pair
         return
@@ -137,6 +137,14 @@ def _judged_pair(items: list[Any]) -> str | None:
         return None
     said = _text(items[1]) if _is_plain(items[1]) else ""
     return f"{items[0]}: {said}" if said.casefold() in _VERDICT_WORDS else None
+
+
+def _named_list(items: list[Any]) -> str | None:
+    """``["Pick", ["robot", "cup"]]``."""
+    if len(items) != 2 or not isinstance(items[0], str) or _is_plain(items[1]):
+        return None
+    inside = _arguments(items[1]) if items[0].isidentifier() else "("
+    return None if "(" in inside else f"{items[0]}({inside})"
 
 
 def _group_of(item: Any) -> str:

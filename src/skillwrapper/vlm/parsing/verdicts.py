@@ -98,7 +98,10 @@ _CONDITION = frozenset(
     )
 )
 _CORRECTION = frozenset(
-    words_of("wait actually correction sorry hmm oops scratch strike rather instead or")
+    words_of(
+        "wait actually correction sorry hmm oops scratch strike rather instead or if unless "
+        "provided assuming depending"
+    )
 )
 _CHATTER = frozenset(words_of("here let sure certainly of okay ok below i'll i'd thanks as now"))
 _OTHERS = frozenset(["others", "other", "rest", "remaining", "everything", "else"])
