@@ -95,7 +95,7 @@ def _plain_line(written: str) -> Line:
     whole = " ".join(text.replace("*", "").replace("`", "").split())
     text = _without_lead(whole)
     number = _NUMBER.match(whole)
-    field = _KEY.match(text)
+    field = _KEY.match(text) if ":" in text or "=" in text else None
     return Line(
         text,
         whole,

@@ -22,8 +22,6 @@ _NULLARY = re.compile(
     r"[\"']?([A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8})[\"']? ?(?=[:=|]|- |->)"
 )
 _BARE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8}")
-_OTHER_SIGNATURE = re.compile(r"\(|[A-Za-z][\w-]{0,80}\[")
-"""The manner of Lisp, and square brackets."""
 _SEPARATOR = re.compile(
     r"[\"']? ?(?:[:=|;.-]|->|=>|:=|means\b|iff\b|is true (?:if|when|iff)\b)[ :=|>-]{0,8}"
 )
@@ -35,6 +33,8 @@ _MEANING = re.compile(
 _WORD = re.compile(r"\w++", re.ASCII)
 _WORD_PART = re.compile(r"[^\W_]++")
 _LONGEST_NAME = 60
+_LONGEST_HEAD = 100
+_BRACKET = re.compile(r"[(\[]")
 _LOOK_AHEAD = 3
 
 
@@ -106,15 +106,17 @@ def _proposals(lines: Sequence[str]) -> Iterator[_Proposal]:
 
 def _read_signature(text: str) -> tuple[str, tuple[str, ...], str] | None:
     """Name, parameters and what follows, if a line begins with a predicate."""
-    named = _NAME.match(text)
-    calls = (
-        find_calls(f"p{text[named.end() :]}") if named and text[named.end() :][:1] == "(" else []
-    )
-    if named and calls and calls[0].start == 0:
-        return named.group(1), calls[0].arguments, text[named.end() + calls[0].end - 1 :]
-    calls = find_calls(text) if _OTHER_SIGNATURE.match(text) else []
-    if calls and calls[0].start == 0:
-        return calls[0].name, calls[0].arguments, text[calls[0].end :]
+    opening = _BRACKET.search(text, 0, _LONGEST_HEAD)
+    bracket = opening.start() if opening else -1
+    named = _NAME.match(text) if opening else None
+    if named and named.end() == bracket and text[bracket] == "(":
+        calls = find_calls(f"p{text[bracket:]}")
+        if calls and calls[0].start == 0:
+            return named.group(1), calls[0].arguments, text[bracket + calls[0].end - 1 :]
+    elif bracket == 0 or named:  # in the manner of Lisp, or in square brackets
+        calls = find_calls(text)
+        if calls and calls[0].start == 0:
+            return calls[0].name, calls[0].arguments, text[calls[0].end :]
     nullary = _NULLARY.match(text)
     return (nullary.group(1), (), text[nullary.end() :]) if nullary else None
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 from skillwrapper.vlm.parsing.instances import InstanceReader, Step, instance_reader
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.vlm.parsing.markup import Line
+from skillwrapper.vlm.parsing.memory import remembering
 from skillwrapper.world.skills import Skill, SkillInstance
 from skillwrapper.world.types import Object
 
@@ -44,8 +46,8 @@ def parse_sequences(
     reply: str, skills: Sequence[Skill], objects: Sequence[Object]
 ) -> ParsedSequences:
     """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
-    reader = instance_reader(tuple(skills), tuple(objects))
-    lines = [_listed(line, reader) for line in reply_lines(reply)]
+    read = _line_reader(tuple(skills), tuple(objects))
+    lines = [read(line) for line in reply_lines(reply)]
     sequences, unusable = [], []
     for group in _group(lines):
         steps = []
@@ -59,6 +61,14 @@ def parse_sequences(
     if not sequences and not unusable:
         unusable.append(f"no skills in the reply: '{excerpt(reply)}'")
     return ParsedSequences(tuple(sequences), tuple(unusable))
+
+
+@lru_cache(maxsize=16)
+def _line_reader(
+    skills: tuple[Skill, ...], objects: tuple[Object, ...]
+) -> Callable[[Line], _Listed]:
+    reader = instance_reader(skills, objects)
+    return remembering(lambda line: _listed(line, reader), lambda line: len(line.whole))
 
 
 def _listed(line: Line, reader: InstanceReader) -> _Listed:
