@@ -25,9 +25,9 @@ _THINKING = (
     r"|(?:inner[-_ ])?monologue|details)"
 )
 _ANSWER = r"(?:final[-_ ]?)?(?:answer|response|output|solution)|final"
-_MAY_BE_TAG = re.compile(r"[<\[\u25c1\uff1c&](?=[|/A-Za-z\u25c1])")
-_MOST_TAGS = 2000
-"""A reply with more tags of reasoning is noise; nothing of it is read."""
+_MAY_BE_TAG = re.compile(r"[<\u25c1\uff1c](?=[|/A-Za-z])|\[(?=[/A-Z])|&(?=lt;[|/A-Za-z])")
+_MOST_TAGS, _MOST_BRACKETS = 2_000, 40_000
+"""A reply with more is noise; nothing of it is read."""
 _TAG = re.compile(
     r"(?:[<\[\u25c1\uff1c]|&lt;)\|?"
     r"(?P<end>/|end[-_ ](?:of[-_ ])?|(?:begin|start)[-_ ](?:of[-_ ])?)?"
@@ -62,6 +62,10 @@ _ANSWER_BELOW = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _BELOW_WORDS = ("final", "done thinking", "is my", "are my")
+
+
+class _NoiseError(Exception):
+    """A reply makes no sense."""
 
 
 def clean_text(text: str) -> str:
@@ -128,7 +132,11 @@ def _outside_of_tags(text: str) -> str:
     """Without reasoning in tags; only the part in answer tags, if there is one."""
     outside: list[str] = []
     answers: list[str] = []
-    for kind, said in _tagged_parts(text):
+    try:
+        parts = list(_tagged_parts(text))
+    except _NoiseError:
+        return ""
+    for kind, said in parts:
         if kind == "outside":
             outside.append(said)
         elif kind == "answer":
@@ -146,8 +154,7 @@ def _tagged_parts(text: str) -> Iterator[tuple[str, str]]:
     answering, start = False, 0
     for number, tag in enumerate(_tags(text)):
         if number == _MOST_TAGS:
-            yield "reasoning without a beginning", ""
-            return
+            raise _NoiseError
         kind = "reasoning" if open_tags else "answer" if answering else "outside"
         yield kind, text[start : tag.start()]
         start = tag.end()
@@ -167,7 +174,9 @@ def _tagged_parts(text: str) -> Iterator[tuple[str, str]]:
 
 def _tags(text: str) -> Iterator[re.Match[str]]:
     """Tags of reasoning and answers; in square brackets only capitals are tags."""
-    for place in _MAY_BE_TAG.finditer(text):
+    for number, place in enumerate(_MAY_BE_TAG.finditer(text)):
+        if number == _MOST_BRACKETS:
+            raise _NoiseError
         tag = _TAG.match(text, place.start())
         if tag and (tag.group()[0] != "[" or tag.group().isupper()):
             yield tag

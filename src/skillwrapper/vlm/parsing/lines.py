@@ -7,7 +7,7 @@ from skillwrapper.vlm.parsing.markup import Line, plain_line, without_tags
 from skillwrapper.vlm.parsing.records import join_records
 from skillwrapper.vlm.parsing.structured import flatten_json
 
-LONGEST_REPLY = 100_000
+LONGEST_REPLY = 60_000
 """Characters, reasoning aside; no answer to any of our questions comes near."""
 
 
