@@ -12,7 +12,9 @@ from rich.table import Table
 import skillwrapper
 from skillwrapper.cli.output import messages, results
 from skillwrapper.cli.progress import RunProgress
-from skillwrapper.runs.events import EventKind, RunEvent
+from skillwrapper.runs.decisions import PredicateDecision
+from skillwrapper.runs.events import PredicateDecided
+from skillwrapper.symbols import Predicate
 
 HOSTILE = "on :100: [/b] [red]x[/red] [link=http://x]y[/link] \\[bold]"
 SOURCES = sorted((Path(skillwrapper.__file__).parent).rglob("*.py"))
@@ -36,11 +38,11 @@ def test_progress_prints_what_it_is_given() -> None:
     console = messages()
     console.width = 200
     progress = RunProgress(console)
-    decided = {"verdict": "accepted", "predicate": HOSTILE, "reason": HOSTILE}
-    progress.happened(RunEvent(EventKind.PREDICATE_DECIDED, 1, decided))
+    decision = PredicateDecision("accepted", Predicate("p", (), "x"), reason=HOSTILE)
+    progress(PredicateDecided(1, decision))
     with console.capture() as printed:
         console.print(progress._draw())
-    assert printed.get().count(HOSTILE) == 2
+    assert printed.get().count(HOSTILE) == 1
 
 
 def test_there_are_no_other_consoles_and_no_markup() -> None:
