@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tea_world import DOMAIN, DRAWING, ROBOT, write_tea_world
+from tea_world import DOMAIN, DRAWING, ROBOT, SMALLEST, write_tea_world
 
 import skillwrapper
 from skillwrapper.domains.discovery import bundled_domains, bundled_names, domain_names, find_domain
@@ -51,6 +51,27 @@ def test_folder_is_found_by_its_path(
 
 def test_domain_of_a_folder_keeps_all_rules(folder: Path) -> None:
     check_environment(find_domain(str(folder)).make_environment)
+
+
+def test_robot_of_a_folder_is_an_environment(tmp_path: Path) -> None:
+    package = find_domain(str(write_tea_world(tmp_path, robot=SMALLEST)))
+    check_environment(package.make_environment)
+    assert_works(package, str(tmp_path))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("def run", "def runn", "robot.py:TeaWorld lacks run; expected a Robot, a Simulator or an"),
+        ("Robot)", "Robto)", r"robot.py:5: AttributeError: .*'Robto'"),
+        ("(skillwrapper.Robot)", "", "robot.py:TeaWorld lacks reset, execute, observe, close; exp"),
+    ],
+)
+def test_mistakes_in_a_robot_are_told(tmp_path: Path, old: str, new: str, message: str) -> None:
+    assert old in SMALLEST
+    folder = write_tea_world(tmp_path, robot=SMALLEST.replace(old, new))
+    with pytest.raises(ConfigurationError, match=message):
+        find_domain(str(folder)).make_environment()
 
 
 @pytest.fixture
@@ -173,7 +194,8 @@ def test_parts_that_are_missing_are_named(folder: Path) -> None:
     assert package.scene_reader is None
     assert package.words is None
     assert package.structure(object()) == ""
-    for part in ("expert", "system_predicates", "problems", "impossibility", "pairs", "published"):
+    assert package.impossibility.explain(0, 1)[0] in package.impossibility.kinds
+    for part in ("expert", "system_predicates", "problems", "pairs", "published"):
         with pytest.raises(ConfigurationError, match=rf"domain.yaml: expected a key '{part}' for "):
             getattr(package, part)
         assert not package.has(part)

@@ -62,6 +62,19 @@ class TeaWorld:
         pass
 """
 
+SMALLEST = """\
+import skillwrapper
+from drawing import draw
+
+
+class TeaWorld(skillwrapper.Robot):
+    def look(self):
+        return {"front": draw(["mug"], set())}
+
+    def run(self, skill, *arguments):
+        return skill == "Fill"
+"""
+
 DRAWING = """\
 from PIL import Image
 

@@ -30,7 +30,6 @@ app = typer.Typer(
     name="skillwrapper",
     help="Learn symbolic planning models of a robot's black-box skills from pictures.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 _GROUPS = (

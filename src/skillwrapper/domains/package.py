@@ -203,12 +203,14 @@ class DomainPackage:
 
     @property
     def impossibility(self) -> Impossibility:
-        """Why some states cannot be reached.
+        """Why some states cannot be reached; by default only that it was found by search.
 
         Raises:
-            ConfigurationError: if nothing is known.
+            ConfigurationError: if the key names something else.
         """
-        found = self._load(self._named("impossibility", "impossible problems"), ("impossibility",))
+        found = self._optional("impossibility")
+        if found is None:
+            return Impossibility(("unreachable",), _found_by_search)
         if not isinstance(found, Impossibility):
             raise self._unexpected(("impossibility",), "an Impossibility", found)
         return found
@@ -299,14 +301,14 @@ def _what_is_missing(path: Path) -> str:
 
 
 def _check_members(thing: object, members: Iterable[str], what: str) -> None:
-    """A robot has what its base class leaves open, an environment all of its protocol."""
-    is_robot = inspect.isclass(thing) and issubclass(thing, Robot)
-    lacking = [name for name in members if not hasattr(thing, name)]
-    if is_robot:
-        lacking = sorted(getattr(thing, "__abstractmethods__", ()))
+    """A class has what its base class leaves open, and else all of the protocol."""
+    lacking = sorted(getattr(thing, "__abstractmethods__", ()))
+    if not lacking and not (inspect.isclass(thing) and issubclass(thing, Robot)):
+        lacking = [name for name in members if not hasattr(thing, name)]
     if lacking:
-        wanted = "a Robot has look and run" if is_robot else "an Environment or a Robot is expected"
-        raise ConfigurationError(f"{what} lacks {', '.join(lacking)}; {wanted}")
+        raise ConfigurationError(
+            f"{what} lacks {', '.join(lacking)}; expected a Robot, a Simulator or an Environment"
+        )
 
 
 def _takes_domain(maker: Callable[..., Any]) -> bool:
@@ -314,6 +316,10 @@ def _takes_domain(maker: Callable[..., Any]) -> bool:
         return "domain" in inspect.signature(maker).parameters
     except (TypeError, ValueError):
         return False
+
+
+def _found_by_search(_: object, __: object) -> tuple[str, str]:
+    return "unreachable", "no sequence of skills leads there"
 
 
 def _all_alike(_: object) -> str:
