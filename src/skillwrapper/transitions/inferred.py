@@ -25,30 +25,39 @@ def infer_predicates(
             type covers.
     """
     common: dict[str, list[frozenset[str]]] = {}
-    own: dict[Scene, dict[str, frozenset[str]]] = {}
-    done: set[tuple[Scene, Atom]] = set()
+    places: dict[tuple[Scene, Atom], str] = {}
     for where, scene, atom in seen:
-        if (scene, atom) in done:
-            continue
-        done.add((scene, atom))
-        if scene not in own:
-            own[scene] = {o.name: frozenset(o.types) for o in scene.objects}
-        for name in atom.terms:
-            if name not in own[scene]:
-                raise UnknownNameError("object", name, own[scene], where)
-        found = [own[scene][name] for name in atom.terms]
-        before = common.setdefault(atom.predicate, found)
-        if len(before) != len(found):
-            raise ConfigurationError(
-                f"{where}: expected {len(before)} terms of {atom.predicate} as before, got {atom}"
-            )
-        common[atom.predicate] = [a & b for a, b in zip(before, found, strict=True)]
-        if frozenset() in common[atom.predicate]:
-            raise ConfigurationError(
-                f"{where}: no type of the domain covers what {atom.predicate} is said of; give "
-                "the predicates with their types"
-            )
+        places.setdefault((scene, atom), where)
+    for (scene, atom), where in places.items():
+        found = _types_of(atom, scene, where)
+        common[atom.predicate] = _shared(atom, common.get(atom.predicate, found), found, where)
     return tuple(
         Predicate(name, tuple(types.most_specific(shared)[0] for shared in common[name]))
         for name in sorted(common)
     )
+
+
+def _types_of(atom: Atom, scene: Scene, where: str) -> list[frozenset[str]]:
+    """All types of each term."""
+    present = {o.name: frozenset(o.types) for o in scene.objects}
+    for name in atom.terms:
+        if name not in present:
+            raise UnknownNameError("object", name, present, where)
+    return [present[name] for name in atom.terms]
+
+
+def _shared(
+    atom: Atom, before: list[frozenset[str]], found: list[frozenset[str]], where: str
+) -> list[frozenset[str]]:
+    """The types that the terms of an atom share with those of its predicate's other atoms."""
+    if len(before) != len(found):
+        raise ConfigurationError(
+            f"{where}: expected {len(before)} terms of {atom.predicate} as before, got {atom}"
+        )
+    shared = [a & b for a, b in zip(before, found, strict=True)]
+    if frozenset() in shared:
+        raise ConfigurationError(
+            f"{where}: no type of the domain covers what {atom.predicate} is said of; give "
+            "the predicates with their types"
+        )
+    return shared
