@@ -25,6 +25,7 @@ from skillwrapper.runs.archive.records import (
     InconsistencyRecord,
     SummaryRecord,
 )
+from skillwrapper.runs.provenance import Provenance
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel
 from skillwrapper.symbols.pddl import print_domain
@@ -39,7 +40,7 @@ class ReportContents:
     Attributes:
         settings: what the run was asked to do.
         settings_data: the same as plain data.
-        made_with: versions and commit, as plain data.
+        made_with: which code made the run.
         config_text: the whole ``config.yaml``.
         started: when the run began, in UTC; None if there is no log.
         finished: when its last finished iteration ended, in UTC; None if there is no log.
@@ -60,7 +61,7 @@ class ReportContents:
 
     settings: RunSettings
     settings_data: dict[str, Any]
-    made_with: dict[str, Any]
+    made_with: Provenance
     config_text: str
     started: datetime.datetime | None
     finished: datetime.datetime | None

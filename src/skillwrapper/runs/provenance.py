@@ -7,24 +7,43 @@ import platform
 import subprocess
 from pathlib import Path
 
+from pydantic import BaseModel, ConfigDict
+
 import skillwrapper
 
 _PACKAGES = ("numpy", "pillow", "pydantic", "openai", "kstar-planner", "jinja2")
 
 
-def provenance() -> dict[str, object]:
-    """Versions of skillwrapper, Python and packages, and the commit of a source checkout.
+class Provenance(BaseModel):
+    """Which code made something.
 
-    ``commit`` is None outside a checkout; ``changed`` says whether files differ from it.
+    Attributes:
+        skillwrapper: its version.
+        commit: of a source checkout; None outside one.
+        changed: whether files of the checkout differed from the commit; None outside one.
+        python: its version.
+        packages: versions of the packages that results depend on most; None if not installed.
     """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    skillwrapper: str
+    commit: str | None
+    changed: bool | None
+    python: str
+    packages: dict[str, str | None]
+
+
+def provenance() -> Provenance:
+    """The code that runs now."""
     commit = _git("rev-parse", "HEAD")
-    return {
-        "skillwrapper": skillwrapper.__version__,
-        "commit": commit,
-        "changed": bool(_git("status", "--porcelain", "--untracked-files=no")) if commit else None,
-        "python": platform.python_version(),
-        "packages": {name: _version(name) for name in _PACKAGES},
-    }
+    return Provenance(
+        skillwrapper=skillwrapper.__version__,
+        commit=commit,
+        changed=bool(_git("status", "--porcelain", "--untracked-files=no")) if commit else None,
+        python=platform.python_version(),
+        packages={name: _version(name) for name in _PACKAGES},
+    )
 
 
 def _version(package: str) -> str | None:

@@ -58,7 +58,8 @@ class ExperimentFolder:
             folder._compare(experiment, sets)
         else:
             _check_empty(path)
-            content = {"experiment": experiment.model_dump(mode="json"), "made_with": provenance()}
+            made_with = provenance().model_dump(mode="json")
+            content = {"experiment": experiment.model_dump(mode="json"), "made_with": made_with}
             write_atomically(path / _EXPERIMENT, yaml.safe_dump(content, sort_keys=False))
         for name, problems in sets.items():
             if problems.problems and not folder.problem_file(name).exists():
@@ -95,7 +96,8 @@ class ExperimentFolder:
     def note_run(self, command: str) -> None:
         """Note that a command runs what is not finished yet, and with which code."""
         if any(not self.is_finished(cell) for cell in self.experiment().cells):
-            append_line(self.path / _RUNS, {"command": command, "made_with": provenance()})
+            made_with = provenance().model_dump(mode="json")
+            append_line(self.path / _RUNS, {"command": command, "made_with": made_with})
 
     def runs(self) -> tuple[CommandRecord, ...]:
         """The commands that ran cells, in order of time."""

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 from skillwrapper.errors import FileError, RunFolderError, UserError
 from skillwrapper.files.json_documents import read_json, read_records, read_text
@@ -33,6 +32,7 @@ from skillwrapper.runs.archive.records import (
     to_plain,
 )
 from skillwrapper.runs.episodes import EpisodeSoFar
+from skillwrapper.runs.provenance import Provenance
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel, Operator, Predicate
 from skillwrapper.symbols.files import read_model
@@ -151,10 +151,13 @@ class RunArchive:
         """
         return self._config().part("run").validate(RunSettings)
 
-    def made_with(self) -> dict[str, Any]:
-        """Versions and commit, as plain data."""
-        found = self._config().part("made_with").data
-        return found if isinstance(found, dict) else {}
+    def made_with(self) -> Provenance:
+        """Which code made the run.
+
+        Raises:
+            ConfigurationError: if the file is damaged; names the line.
+        """
+        return self._config().part("made_with").validate(Provenance)
 
     def config_text(self) -> str:
         """The whole ``config.yaml``."""
@@ -272,7 +275,7 @@ class RunArchive:
         if found == FORMAT:
             return
         if isinstance(found, int) and found > FORMAT:
-            version = self.made_with().get("skillwrapper", "a newer one")
+            version = document.part("made_with").part("skillwrapper").data or "a newer one"
             raise RunFolderError(
                 f"{self.path}: the run has format {found}, and this version of skillwrapper reads "
                 f"format {FORMAT}; use the version that made it ({version})"

@@ -48,7 +48,7 @@ def make_archive(path: Path, settings: RunSettings, domain: Domain) -> RunArchiv
     entries = {
         "format": FORMAT,
         "run": settings.model_dump(mode="json"),
-        "made_with": provenance(),
+        "made_with": provenance().model_dump(mode="json"),
     }
     # First what makes the folder a run: one that was stopped right here can be resumed.
     write_atomically(layout.config, yaml.safe_dump(entries, sort_keys=False))
