@@ -25,7 +25,7 @@ _THINKING = (
     r"|(?:inner[-_ ])?monologue|details)"
 )
 _ANSWER = r"(?:final[-_ ]?)?(?:answer|response|output|solution)|final"
-_MAY_BE_TAG = re.compile(r"[<\u25c1\uff1c](?=[|/A-Za-z])|\[(?=[/A-Z])|&(?=lt;[|/A-Za-z])")
+_TAG_SIGNS = "<[\u25c1\uff1c&"
 _MOST_TAGS, _MOST_BRACKETS = 2_000, 40_000
 """A reply with more is noise; nothing of it is read."""
 _TAG = re.compile(
@@ -50,9 +50,10 @@ _END_OF_TURN = re.compile(
 )
 _TEMPLATE = re.compile(
     r"<\|(?:im_start|begin_of_text|start_header_id|assistant)\|>(?:assistant\b)?"
-    r"(?:<\|end_header_id\|>)?|<start_of_turn>(?:model\b)?|\[/INST\]"
+    r"(?:<\|end_header_id\|>)?|<start_of_turn>(?:model\b)?"
     r"|<\|(?:begin|end)_of_box\|>"
 )
+_TEMPLATE_SIGNS = ("<|", "_of_turn>", "<s>", "</s>", "<\uff5c")
 _FENCE = re.compile(rf"```[ \t]{{0,4}}(?:{_THINKING})[ \t]{{0,20}}$", re.IGNORECASE | re.MULTILINE)
 _ANSWER_BELOW = re.compile(
     r"^[^\w\n]{0,20}(?:begin final response|done thinking"
@@ -93,10 +94,11 @@ def answer_of(reply: str) -> str:
 
 def _of_first_turn(text: str) -> str:
     """Without signs of chat templates, and without turns that a model invents after its own."""
-    if "<" not in text and "[/INST]" not in text:
-        return text
+    text = text.replace("[/INST]", "")
     for written, meant in _ALIASES.items():
         text = text.replace(written, meant)
+    if not any(sign in text for sign in _TEMPLATE_SIGNS):
+        return text
     turns = (_TEMPLATE.sub("", turn) for turn in _END_OF_TURN.split(text))
     first = next((turn for turn in turns if turn.strip()), "").strip()
     return first.removeprefix("<s>").removesuffix("</s>")
@@ -174,17 +176,26 @@ def _tagged_parts(text: str) -> Iterator[tuple[str, str]]:
 
 def _tags(text: str) -> Iterator[re.Match[str]]:
     """Tags of reasoning and answers; in square brackets only capitals are tags."""
-    for number, place in enumerate(_MAY_BE_TAG.finditer(text)):
-        if number == _MOST_BRACKETS:
-            raise _NoiseError
-        tag = _TAG.match(text, place.start())
+    places = sorted(place for sign in _TAG_SIGNS for place in _places(text, sign))
+    if len(places) > _MOST_BRACKETS:
+        raise _NoiseError
+    for place in places:
+        tag = _TAG.match(text, place)
         if tag and (tag.group()[0] != "[" or tag.group().isupper()):
             yield tag
 
 
+def _places(text: str, sign: str) -> Iterator[int]:
+    place = text.find(sign)
+    while place >= 0:
+        yield place
+        place = text.find(sign, place + 1)
+
+
 def _below_announcement(text: str) -> str:
     """What stands below a line like ``Final answer:``, if there is one such line."""
-    if not any(words in text.lower() for words in _BELOW_WORDS):
+    lowered = text.lower()
+    if not any(words in lowered for words in _BELOW_WORDS):
         return text
     ends = [found.end() for found in _ANSWER_BELOW.finditer(text)]
     return text[ends[0] :] if len(ends) == 1 and text[ends[0] :].strip() else text
