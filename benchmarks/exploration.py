@@ -20,7 +20,8 @@ from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.evaluation.exact.predictions import predict_all
 from skillwrapper.evaluation.exact.state_space import StateSpace
-from skillwrapper.exploration.explorers import Explorer, Situation, make_explorer
+from skillwrapper.exploration.explorer import Explorer, Situation
+from skillwrapper.exploration.explorers import make_explorer
 from skillwrapper.exploration.questions import ProposalAnswer, ProposalQuestion
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.grounding import AtomSpace, GroundModel, Labels

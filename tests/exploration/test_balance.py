@@ -16,7 +16,7 @@ from garden import (
     state,
 )
 
-from skillwrapper.exploration.balance import balance, predicted_success_ratio
+from skillwrapper.exploration.scores import balance, predicted_success_ratio
 from skillwrapper.grounding import UNKNOWN, GroundModel
 from skillwrapper.symbols import AbstractModel
 

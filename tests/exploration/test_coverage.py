@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from skillwrapper.exploration.coverage import PairCounts, entropy
+from skillwrapper.exploration.scores import PairCounts, entropy
 from skillwrapper.world import SkillInstance
 
 INSTANCES = GARDEN.skill_instances

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillwrapper.exploration.pareto import pareto_set
+from skillwrapper.exploration.scores import pareto_set
 
 SCORES = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), min_size=1, max_size=8)
 QUICK = settings(max_examples=100, deadline=None, derandomize=True)

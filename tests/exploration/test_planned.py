@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from notebook import Notebook, make_domain, picture
 
+from skillwrapper.exploration.explorer import NextSkill, Situation
 from skillwrapper.exploration.planned import PlannedExplorer
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.exploration.situation import NextSkill, Situation
 from skillwrapper.symbols import Predicate
 from skillwrapper.world import Episode, SkillInstance, Transition
 

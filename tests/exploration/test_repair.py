@@ -9,7 +9,7 @@ from garden import GARDEN, OPEN_LEFT, OPEN_RIGHT, SHUT_LEFT, SHUT_RIGHT, is_repe
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from skillwrapper.exploration.repair import random_sequence, repair_sequence
+from skillwrapper.exploration.proposed import random_sequence, repair_sequence
 from skillwrapper.world import SkillInstance
 
 ALLOWED = (OPEN_LEFT, OPEN_RIGHT, SHUT_LEFT)

@@ -9,7 +9,7 @@ import pytest
 from lamps import LampEnvironment, lamp_domain, seen
 
 from skillwrapper.errors import FileError, RobotError, RunFolderError
-from skillwrapper.exploration.explorers import NextSkill
+from skillwrapper.exploration.explorer import NextSkill
 from skillwrapper.runs.archive import ArchiveWriter, RunArchive, make_archive
 from skillwrapper.runs.episodes import EpisodeRunner, EpisodeSoFar
 from skillwrapper.runs.events import EpisodeStarted, RunEvent, SkillExecuted

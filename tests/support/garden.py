@@ -6,8 +6,11 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
+from notebook import Notebook
 
+from skillwrapper.exploration.explorer import Situation
 from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.symbols import AbstractModel, Atom, Literal, Operator, Predicate, Variable
 from skillwrapper.world import (
     Domain,
@@ -15,8 +18,10 @@ from skillwrapper.world import (
     Observation,
     Parameter,
     Picture,
+    Scene,
     Skill,
     SkillInstance,
+    Transition,
     TypeHierarchy,
 )
 
@@ -60,3 +65,31 @@ def state(*labels: int) -> Labels:
 
 def is_repetitive(sequence: Sequence[SkillInstance]) -> bool:
     return any(a == b for a, b in pairwise(sequence))
+
+
+def learned(*failures: tuple[str, SkillInstance]) -> Fit:
+    """What is learned of doors that were opened and shut, and of (state, attempt) that failed."""
+    notebook = Notebook(GARDEN, OPEN)
+    for door in ("left", "right"):
+        notebook.success("", f"Open({door})", f"open({door})")
+        notebook.success(f"open({door})", f"Shut({door})", "")
+    for before, attempt in failures:
+        notebook.failure(before, str(attempt))
+    return notebook.fit()
+
+
+TESTED = learned(("open(left)", OPEN_LEFT), ("", SHUT_LEFT))
+"""As ``MODEL``; every condition was put to the test."""
+
+
+def situation(
+    now: Labels,
+    *done: SkillInstance,
+    left: int = 4,
+    fit: Fit = TESTED,
+    scene: Scene | None = None,
+) -> Situation:
+    """The doors as they are now, after some skills that succeeded."""
+    transitions = tuple(Transition(SEEN, i, True, SEEN) for i in done)
+    present = scene or GARDEN.scene()
+    return Situation(present, SEEN, transitions, left, lambda: fit, lambda space: now)

@@ -1,58 +1,61 @@
-"""Choosing the next skill sequence (paper, Section 3.1 and Algorithm 2)."""
+"""Explorers: given the situation, the next skill or the end of the episode."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import pairwise
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
-import numpy as np
-
-from skillwrapper.exploration.balance import balance
-from skillwrapper.exploration.coverage import PairCounts
-from skillwrapper.exploration.pareto import pareto_set
-from skillwrapper.exploration.questions import ProposalAnswer, ProposalQuestion
-from skillwrapper.exploration.repair import random_sequence, repair_sequence
-from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.grounding import GroundModel, Labels
-from skillwrapper.symbols import AbstractModel
-from skillwrapper.symbols.describe import describe_operator
+from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.untested import find_untested
 from skillwrapper.symbols.operators import Condition
-from skillwrapper.world.domain import Domain
-from skillwrapper.world.episode import Episode
+from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
-from skillwrapper.world.skills import SkillInstance, ground_skills
-from skillwrapper.world.types import Object
+from skillwrapper.world.scenes import Scene
+from skillwrapper.world.skills import SkillInstance
 
 
-class SequenceProposer(Protocol):
-    """Who proposes sequences; ``vlm.assistant.Assistant`` is one."""
-
-    def propose_sequences(self, question: ProposalQuestion) -> ProposalAnswer:
-        """Sequences, and what of the reply could not be used."""
-        ...
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Situation:
-    """Where a sequence will start.
+    """Where the next skill will be run; what costs model calls is done when it is looked at.
 
     Attributes:
-        objects: the objects of the scene.
-        observation: what is seen.
-        state: abstract state (atoms,) of the model's vocabulary.
-        model: what was learned so far.
-        untested: for every operator, by name, the conditions of which nothing shows that they
-            matter.
+        scene: the objects that are present.
+        observation: what is seen now.
+        done: the transitions of this episode so far.
+        left: how many skills may still be run in this episode, at least 1.
+        learn: learns from everything that was executed so far.
+        read: the labels (atoms,) of what is seen now.
     """
 
-    objects: tuple[Object, ...]
+    scene: Scene
     observation: Observation
-    state: Labels
-    model: AbstractModel
-    untested: Mapping[str, Collection[Condition]] = field(default_factory=dict)
+    done: tuple[Transition, ...]
+    left: int
+    learn: Callable[[], Fit]
+    read: Callable[[AtomSpace], Labels]
+
+    @cached_property
+    def fit(self) -> Fit:
+        """What was learned so far."""
+        return self.learn()
+
+    @cached_property
+    def space(self) -> AtomSpace:
+        """The ground atoms of the vocabulary over the objects that are present."""
+        return AtomSpace(self.fit.predicates, self.scene.objects)
+
+    @cached_property
+    def untested(self) -> Mapping[str, frozenset[Condition]]:
+        """For every operator, by name, the conditions of which nothing shows that they matter."""
+        return find_untested(self.fit)
+
+    @cached_property
+    def state(self) -> Labels:
+        """The abstract state (atoms,)."""
+        return self.read(self.space)
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class Candidate:
 
 
 @dataclass(frozen=True)
-class Choice:
+class SequenceChoice:
     """The chosen sequence and how it was chosen.
 
     Attributes:
@@ -81,110 +84,28 @@ class Choice:
     notes: tuple[str, ...]
 
 
-class Explorer:
-    """Proposes what to try next, from what was tried so far."""
+@dataclass(frozen=True)
+class NextSkill:
+    """What to run next.
 
-    def __init__(
-        self, domain: Domain, proposer: SequenceProposer, settings: ExplorationSettings, seed: int
-    ) -> None:
-        self._domain = domain
-        self._proposer = proposer
-        self._settings = settings
-        self._chance = np.random.default_rng(seed)
-        self._successes: Counter[str] = Counter()
-        self._followed: Counter[tuple[SkillInstance, SkillInstance]] = Counter()
-        self.pairs = PairCounts(domain.skill_instances, lifted=settings.pairs == "skills")
+    Attributes:
+        instance: the skill instance; None to end the episode.
+        reason: why, in words.
+        sequence: how the whole sequence was chosen, where it was chosen just now.
+    """
+
+    instance: SkillInstance | None
+    reason: str = ""
+    sequence: SequenceChoice | None = None
+
+
+class Explorer(Protocol):
+    """Chooses what to try; same situations and episodes, in the same order, give same choices."""
+
+    def next_skill(self, situation: Situation) -> NextSkill:
+        """The next skill to run, or the end of the episode."""
+        ...
 
     def record(self, episode: Episode) -> None:
-        """Take note of what was executed."""
-        self.pairs.add(t.instance for t in episode.transitions)
-        self._followed.update(
-            (a.instance, b.instance) for a, b in pairwise(episode.transitions) if a.success
-        )
-        self._successes.update(t.instance.skill for t in episode.transitions if t.success)
-
-    def choose(self, situation: Situation) -> Choice:
-        """The next sequence."""
-        allowed = ground_skills(self._domain.skills, situation.objects)
-        if self._settings.choice == "random":
-            drawn = random_sequence(allowed, self._settings.budget, self._chance)
-            return Choice(tuple(drawn), (), (), ())
-        sequences, notes = self._candidates(situation, allowed)
-        candidates = self._score(situation, sequences)
-        pool = tuple(range(len(candidates)))
-        if self._settings.choice == "pareto":
-            pool = pareto_set([(c.balance, c.coverage) for c in candidates])
-        chosen = pool[int(self._chance.integers(len(pool)))]
-        return Choice(candidates[chosen].sequence, candidates, pool, notes)
-
-    def _candidates(
-        self, situation: Situation, allowed: Sequence[SkillInstance]
-    ) -> tuple[list[tuple[SkillInstance, ...]], tuple[str, ...]]:
-        answer = self._proposer.propose_sequences(self._question(situation, allowed))
-        notes = list(answer.unusable)
-        sequences = []
-        for number, proposed in enumerate(answer.sequences[: self._settings.candidates], start=1):
-            repaired, changes = repair_sequence(
-                proposed, allowed, self._settings.length, self._chance
-            )
-            sequences.append(repaired[: self._settings.budget])
-            notes += [f"sequence {number}: {change}" for change in changes]
-        if not sequences:
-            notes.append("no usable sequence was proposed; one is drawn by chance")
-            drawn = random_sequence(allowed, self._settings.budget, self._chance)
-            sequences.append(tuple(drawn))
-        return sequences, tuple(notes)
-
-    def _question(self, situation: Situation, allowed: Sequence[SkillInstance]) -> ProposalQuestion:
-        least = self._settings.scarce_successes
-        scarce = tuple(s.name for s in self._domain.skills if self._successes[s.name] < least)
-        return ProposalQuestion(
-            domain=self._domain,
-            objects=situation.objects,
-            observation=situation.observation,
-            predicates=situation.model.predicates,
-            operators=tuple(
-                describe_operator(o, situation.untested.get(o.name, ()))
-                for o in situation.model.operators
-            ),
-            least_explored=self._least_explored(allowed, scarce),
-            scarce_skills=scarce,
-            count=self._settings.candidates,
-            length=self._settings.length,
-        )
-
-    def _least_explored(
-        self, allowed: Sequence[SkillInstance], scarce: Sequence[str]
-    ) -> tuple[tuple[SkillInstance, SkillInstance], ...]:
-        """Pairs of which the second was run least often right after a success of the first.
-
-        Of equals, pairs that end in a scarce skill come first, then pairs about the same thing:
-        what a skill needs is mostly brought about by another one on the same object. The rest is
-        left to chance.
-        """
-        everywhere = set.intersection(*(set(i.arguments) for i in allowed)) if allowed else set()
-        pairs = [(a, b) for a in allowed for b in allowed if a != b]
-        chance = self._chance.permutation(len(pairs))
-
-        def order(number: int) -> tuple[int, bool, bool, int]:
-            first, second = pairs[number]
-            shared = set(first.arguments) & set(second.arguments) - everywhere
-            return (
-                self._followed[first, second],
-                second.skill not in scarce,
-                not shared,
-                int(chance[number]),
-            )
-
-        ranked = sorted(range(len(pairs)), key=order)
-        return tuple(pairs[n] for n in ranked[: self._settings.named_pairs])
-
-    def _score(
-        self, situation: Situation, sequences: Sequence[tuple[SkillInstance, ...]]
-    ) -> tuple[Candidate, ...]:
-        model = GroundModel.of(situation.model, situation.objects)
-        target = self._settings.target_ratio
-        return tuple(
-            Candidate(s, balance(model, situation.state, s, target), self.pairs.gain(s))
-            for s in sequences
-        )
+        """Take note of an episode that has ended."""
+        ...

@@ -12,11 +12,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from skillwrapper.exploration.beliefs import Beliefs
+from skillwrapper.exploration.explorer import NextSkill, Situation
 from skillwrapper.exploration.lookahead import Lookahead, look_ahead
 from skillwrapper.exploration.memory import Memory
 from skillwrapper.exploration.roles import SceneRoles
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.exploration.situation import NextSkill, Situation
 from skillwrapper.exploration.worth import Weights, Worth, weigh
 from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates

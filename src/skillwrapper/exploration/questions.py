@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from skillwrapper.symbols.predicates import Predicate
 from skillwrapper.world.domain import Domain
@@ -44,3 +45,11 @@ class ProposalAnswer:
 
     sequences: tuple[tuple[SkillInstance, ...], ...]
     unusable: tuple[str, ...] = ()
+
+
+class SequenceProposer(Protocol):
+    """Who proposes sequences."""
+
+    def propose_sequences(self, question: ProposalQuestion) -> ProposalAnswer:
+        """Sequences, and what of the reply could not be used."""
+        ...

@@ -59,10 +59,10 @@ class ExplorationSettings(BaseModel):
         default="instances",
         description="whether coverage counts pairs of skill instances or of skills",
     )
-    choice: Literal["pareto", "uniform", "random"] = Field(
+    choice: Literal["pareto", "uniform"] = Field(
         default="pareto",
-        description="pareto as in the paper; uniform takes any candidate (No Heuristic); random "
-        "asks no model and draws skill instances (Random Exploration)",
+        description="which candidate paper takes: pareto, one that none beats in both scores; "
+        "uniform, any (No Heuristic)",
     )
     named_pairs: int = Field(
         default=12,

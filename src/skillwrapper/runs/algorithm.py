@@ -11,9 +11,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from skillwrapper.exploration.coverage import PairCounts
-from skillwrapper.exploration.explorer import SequenceProposer
-from skillwrapper.exploration.explorers import NextSkill, Situation, make_explorer
+from skillwrapper.exploration.explorer import NextSkill, Situation
+from skillwrapper.exploration.explorers import make_explorer
+from skillwrapper.exploration.questions import SequenceProposer
+from skillwrapper.exploration.scores import PairCounts
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.invention.batch import BatchAdviser, BatchInventor
 from skillwrapper.invention.convergence import Convergence

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from skillwrapper.errors import RobotError, RunFolderError
-from skillwrapper.exploration.explorers import NextSkill
+from skillwrapper.exploration.explorer import NextSkill
 from skillwrapper.runs.events import EpisodeStarted, Observer, SkillExecuted
 from skillwrapper.world.capabilities import Replayable, supports
 from skillwrapper.world.environment import Environment

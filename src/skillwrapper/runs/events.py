@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from skillwrapper.exploration.explorer import Choice
+from skillwrapper.exploration.explorer import SequenceChoice
 from skillwrapper.runs.decisions import PredicateDecision
 from skillwrapper.runs.model_sessions import CallCounter
 from skillwrapper.runs.results import LearningResult, SceneLabels
@@ -72,7 +72,7 @@ class SequenceChosen(RunEvent):
         choice: the sequence, and how it was chosen.
     """
 
-    choice: Choice
+    choice: SequenceChoice
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ WHOLE = RunSettings(
 CHANGES = (
     ("ours", {}),
     ("ours-5x15", {"iterations": (10, 5), "budget": (30, 15)}),
-    ("random", {"choice": ("pareto", "random")}),
+    ("random", {"explorer": ("paper", "random")}),
     ("no-heuristic", {"choice": ("pareto", "uniform")}),
     ("fm-invent", {"invention": ("pairs", "batch")}),
 )

@@ -12,7 +12,7 @@ from typing import Any
 
 from skillwrapper.evaluation.exact.learning_curves import CurvePoint, area_under, learning_curve
 from skillwrapper.evaluation.methods.method import Prepared
-from skillwrapper.exploration.coverage import PairCounts
+from skillwrapper.exploration.scores import PairCounts
 from skillwrapper.learning.clusters import cluster_successes
 from skillwrapper.learning.language import OperatorLanguage
 from skillwrapper.learning.operators import cluster_operators

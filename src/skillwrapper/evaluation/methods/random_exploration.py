@@ -10,7 +10,7 @@ from skillwrapper.runs.settings import RunSettings
 
 
 def _explore_randomly(config: RunSettings) -> RunSettings:
-    exploration = config.exploration.model_copy(update={"choice": "random"})
+    exploration = config.exploration.model_copy(update={"explorer": "random"})
     return config.model_copy(update={"exploration": exploration})
 
 

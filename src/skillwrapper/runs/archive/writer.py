@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from skillwrapper.exploration.explorer import Choice
+from skillwrapper.exploration.explorer import SequenceChoice
 from skillwrapper.files.writing import append_line, json_text, write_atomically
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.untested import find_untested
@@ -153,7 +153,7 @@ def _describe(event: RunEvent) -> tuple[str, dict[str, Any]] | None:
     return None
 
 
-def _describe_choice(choice: Choice) -> dict[str, Any]:
+def _describe_choice(choice: SequenceChoice) -> dict[str, Any]:
     return {
         "sequence": [str(i) for i in choice.sequence],
         "scores": [{"balance": c.balance, "coverage": c.coverage} for c in choice.candidates],

@@ -1,4 +1,4 @@
-"""Coverage: how evenly pairs of consecutive skills were tried (paper, Algorithm 3)."""
+"""Scores of skill sequences: balance, coverage, and what is best by both (paper, Section 3.1)."""
 
 from __future__ import annotations
 
@@ -8,11 +8,36 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.grounding import GroundModel, Labels
+from skillwrapper.grounding.simulation import simulate
 from skillwrapper.world.skills import SkillInstance
 
 
+def balance(
+    model: GroundModel, start: Labels, sequence: Sequence[SkillInstance], target: float
+) -> float:
+    """Balance: how close the predicted share of successes is to the wanted one (Algorithm 4).
+
+    ``-|r - r*|``, the larger the better; r is the share of skills predicted to succeed.
+
+    Args:
+        model: the learned operators.
+        start: abstract state (atoms,) in which the sequence starts.
+        sequence: skill instances, not empty.
+        target: the wanted share (the paper's r*).
+    """
+    return -abs(predicted_success_ratio(model, start, sequence) - target)
+
+
+def predicted_success_ratio(
+    model: GroundModel, start: Labels, sequence: Sequence[SkillInstance]
+) -> float:
+    """Share of the skills that the model predicts to succeed; a failure changes nothing."""
+    return float(simulate(model, start, sequence).succeeds.mean())
+
+
 class PairCounts:
-    """Counts of consecutive pairs (the paper's Q).
+    """Coverage: how evenly pairs of consecutive skills were tried (Algorithm 3; the paper's Q).
 
     Args:
         instances: all skill instances.
@@ -56,3 +81,17 @@ def entropy(counts: NDArray[np.int64]) -> float:
         return 0.0
     shares = counts[counts > 0] / total
     return float(-(shares * np.log(shares)).sum())
+
+
+def pareto_set(scores: Sequence[tuple[float, ...]]) -> tuple[int, ...]:
+    """Indices of the candidates that no other one beats; exact ties all stay (DESIGN.md D16).
+
+    One beats another if it is at least as good in every score and better in one.
+    """
+    return tuple(
+        i for i, own in enumerate(scores) if not any(_beats(other, own) for other in scores)
+    )
+
+
+def _beats(first: tuple[float, ...], second: tuple[float, ...]) -> bool:
+    return first != second and all(a >= b for a, b in zip(first, second, strict=True))
