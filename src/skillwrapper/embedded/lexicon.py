@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from skillwrapper.embedded.concepts import Concept, Judge
+from skillwrapper.embedded.denials import Said, what_is_said
 from skillwrapper.embedded.facts import Fact, Sort
 from skillwrapper.embedded.picture_concepts import PICTURE_CONCEPTS
 from skillwrapper.embedded.relation_concepts import (
@@ -114,8 +115,11 @@ class Lexicon:
         words, meaning = _words(name), _plain(semantics)
         best: Understanding | None = None
         best_score = 0
-        for concept in self.concepts(outline):
-            score = _score(concept, name, words, meaning)
+        concepts = self.concepts(outline)
+        opposites = {(c.idea, c.arity, c.positive): c for c in concepts}
+        for concept in concepts:
+            opposite = opposites.get((concept.idea, concept.arity, not concept.positive))
+            score = _score(concept, opposite, name, words, meaning)
             candidate = _arrange(concept, kinds) if score > best_score else None
             if candidate is not None:
                 best, best_score = candidate, score
@@ -158,17 +162,33 @@ def _arrange(concept: Concept, kinds: tuple[str, ...]) -> Understanding | None:
     return None
 
 
-def _score(concept: Concept, name: str, words: str, meaning: str) -> int:
-    score = 0
+def _score(concept: Concept, opposite: Concept | None, name: str, words: str, meaning: str) -> int:
+    """How surely a name and a meaning are meant to be a concept; 0 for not at all."""
+    if _means(concept, meaning):
+        return _BY_MEANING + _EXACTLY + _by_name(concept, opposite, name, words)
+    said = what_is_said(concept, opposite, meaning) if meaning else Said.NOTHING
+    if said in (Said.DENIED, Said.UNCLEAR):
+        return 0
+    if meaning and opposite is not None and _is_said(opposite, concept, meaning):
+        return 0  # the name says one thing, or the meaning both
+    by_name = _by_name(concept, opposite, name, words)
+    return by_name + (_BY_MEANING if said is Said.YES else 0)
+
+
+def _by_name(concept: Concept, opposite: Concept | None, name: str, words: str) -> int:
     if name in concept.wording.names:
-        score += _BY_NAME + _EXACTLY
-    elif concept.pattern.search(words):
-        score += _BY_NAME
-    if any(pattern.fullmatch(meaning) for pattern in _own_meanings(concept.wording.meanings)):
-        score += _BY_MEANING + _EXACTLY
-    elif meaning and concept.pattern.search(meaning):
-        score += _BY_MEANING
-    return score
+        return _BY_NAME + _EXACTLY
+    return _BY_NAME if what_is_said(concept, opposite, words) is Said.YES else 0
+
+
+def _means(concept: Concept, meaning: str) -> bool:
+    """Whether a meaning is one of a concept's own."""
+    own = _own_meanings(concept.wording.meanings)
+    return bool(meaning) and any(pattern.fullmatch(meaning) for pattern in own)
+
+
+def _is_said(concept: Concept, opposite: Concept, meaning: str) -> bool:
+    return _means(concept, meaning) or what_is_said(concept, opposite, meaning) is Said.YES
 
 
 @lru_cache(maxsize=1024)

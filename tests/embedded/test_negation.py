@@ -1,0 +1,152 @@
+"""What a sentence denies is not what it says: the lexicon is undecided rather than wrong (fault 27).
+
+Each sentence is one that a real model might write. Its truth is that of a concept of the lexicon,
+or of its opposite (with an exclamation mark); None where no concept means it.
+"""
+
+from __future__ import annotations
+
+import itertools
+from functools import cache
+
+import pytest
+from seen_kitchen import LEXICON, kitchen, sketch_graph
+
+from skillwrapper.embedded.concepts import Concept
+from skillwrapper.embedded.scene_graph import SceneGraph
+from skillwrapper.embedded.sight import Sight
+
+# name of the predicate | kinds of its parameters | sentence | what it means
+CORPUS = """
+off_board | item | The item is not on the board. | !on board
+not_on_board | item | | !on board
+on_board | item | The item is not on the cutting board. | !on board
+away_from_stove | item | The item is no longer on the stove. | !on stove
+off_stove | item | The item isn't on the stove. | !on stove
+off_stove | item | The item has never been on the stove. |
+not_at_station | item station | The item is not on the station. | !on
+removed | item station | The item has been taken off and does not lie on the station. | !on
+separate | item item | The first item is not on top of the second. | !on
+apart | item item | The first item does not touch or rest on the second. | !on
+unstacked | item item | The first item isn't stacked upon the second one. | !on
+not_under | item item | The first item is not beneath the second. | !inverse on
+lets_go | robot item | The robot does not hold the item. | !inverse held
+not_holding | robot item | | !inverse held
+not_held | item | Nobody holds the item. | !somewhere held
+put_down | item | The item is not being held. | !somewhere held
+released | item | The item isn't in the robot's hand. | !somewhere held
+not_in_hand | item robot | The item is not in the hand of the robot. | !inverse held
+hand_empty | robot | The robot holds nothing. | nothing held
+hand_free | robot | The robot is not holding anything. | nothing held
+hand_free | robot | The robot's hand does not carry any item. | nothing held
+hand_free | robot | No item is held by the robot. | nothing held
+hand_busy | robot | The robot's hand is not empty. | something held
+hand_busy | robot | The robot's hand is non-empty. | something held
+hand_busy | robot | It is not the case that the hand is free. | something held
+hand_busy | robot | The robot's hand is never free. |
+hand_busy | robot | The robot holds something. | something held
+top_clear | item | Nothing lies on the item. | nothing on
+top_clear | item | No other item rests on top of it. | nothing on
+top_clear | item | The item is not covered. | nothing on
+top_clear | item | There isn't anything on top of the item. | nothing on
+covered | item | The item is not clear. | something on
+covered | item | The top of the item is not free. | something on
+covered | item | The item does not have a clear top. | something on
+covered | item | Something lies on the item. | something on
+station_free | station | Nothing is on the station. | nothing on
+station_free | station | The station is not occupied. | nothing on
+station_free | station | The station is free of items. | nothing on
+station_busy | station | The station is not empty. | something on
+station_busy | station | The station is not free. | something on
+station_busy | station | The station isn't unoccupied. | something on
+station_busy | station | The station is no longer empty. | something on
+station_busy | station | An item is on the station. | something on
+uncut | item | The item is not cut. | not cut
+uncut | item | The item has not been cut yet. | not cut
+uncut | item | The item hasn't been sliced into pieces. | not cut
+uncut | item | The item is not in pieces. | not cut
+uncut | item | The item was never chopped. | not cut
+uncut | item | The item is whole. | not cut
+uncut | item | No cut was made. | not cut
+is_cut | item | The item is not whole. | cut
+is_cut | item | The item is no longer whole. | cut
+is_cut | item | The item isn't intact any more. | cut
+is_cut | item | The item is in pieces, not whole. | cut
+is_cut | item | In many pieces rather than one intact piece. | cut
+raw | item | The item is not cooked. | not cooked
+raw | item | The item has not yet been grilled. | not cooked
+raw | item | The item shows no brown color. | not cooked
+raw | item | The item is without grill marks, uncooked. | not cooked
+raw | item | The item is pink, not brown. | not cooked
+cooked | item | The item is not raw. | cooked
+cooked | item | The item is no longer pink. | cooked
+cooked | item | The item isn't uncooked. | cooked
+cooked | item | A browned surface or grill marks, not raw or pink. | cooked
+can_be_cut | item | The item can be cut. |
+can_cut | item | The item could be sliced. |
+must_cook | item | The item must be cooked. |
+about_to_cut | item | The item is about to be cut. |
+to_be_held | item | The item should be held by the robot. |
+was_held | item | The item used to be in the robot's hand. |
+ready | item | The item is ready to be put on the stove. |
+may_stack | item item | The first item may be placed on the second. |
+will_be_on | item station | The item will be on the station. |
+not_cut_nor_cooked | item | The item is neither cut nor cooked. |
+on_nothing | item | The item is not on any station. |
+off_table | item | The item is not on a table. | !on some table
+off_table | item | The item has left its table. |
+only_held | item | The item is anywhere but in the hand. |
+without_board | item | The item lies anywhere except on the board. | !on board
+"""
+ROWS = [tuple(part.strip() for part in row.split("|")) for row in CORPUS.strip().splitlines()]
+
+
+@cache
+def graphs() -> tuple[SceneGraph, ...]:
+    return tuple(sketch_graph(state) for state in kitchen().sample(60))
+
+
+def truths(concept: Concept, order: tuple[int, ...], kinds: tuple[str, ...]) -> list[bool | None]:
+    """What a concept says of all things, in all sampled states."""
+    found = []
+    for graph in graphs():
+        sight = Sight(graph, (100, 100), "")
+        for names in itertools.product(*(graph.names(kind) for kind in kinds)):
+            if len(set(names)) == len(names):
+                found.append(concept.truth(sight, tuple(names[i] for i in order)))
+    return found
+
+
+def wanted(key: str, kinds: tuple[str, ...]) -> list[bool | None]:
+    concept = next(
+        c for c in LEXICON.concepts(graphs()[0].outline) if c.key == key.removeprefix("!")
+    )
+    order = next(
+        o for o in itertools.permutations(range(len(kinds))) if concept.fits([kinds[i] for i in o])
+    )
+    said = truths(concept, order, kinds)
+    return [None if x is None else not x for x in said] if key.startswith("!") else said
+
+
+def outcome(row: tuple[str, ...]) -> str:
+    name, spoken, sentence, key = row
+    kinds = tuple(spoken.split())
+    found = LEXICON.understand(name, kinds, sentence, graphs()[0])
+    if found is None:
+        return "undecided"
+    if not key:
+        return f"wrong: taken for {found.concept.key}"
+    right = truths(found.concept, found.order, kinds) == wanted(key, kinds)
+    return "right" if right else f"wrong: taken for {found.concept.key}"
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}-{row[2]}")
+def test_no_sentence_is_taken_for_another(row: tuple[str, ...]) -> None:
+    assert not outcome(row).startswith("wrong")
+
+
+def test_most_sentences_that_a_concept_means_are_understood() -> None:
+    assert len(ROWS) >= 60
+    meant = [row for row in ROWS if row[3] and not row[3].startswith("!")]
+    understood = [row for row in meant if outcome(row) == "right"]
+    assert len(understood) >= 0.6 * len(meant)
