@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from skillwrapper.world.domain import Domain, load_domain
     from skillwrapper.world.environment import Environment
     from skillwrapper.world.episode import Outcome
+    from skillwrapper.world.pictures import observation_of
     from skillwrapper.world.robot import Robot, RobotEnvironment
     from skillwrapper.world.simulator import Simulator
     from skillwrapper.world.skills import SkillInstance
@@ -51,6 +52,7 @@ __all__ = [
     "learn",
     "learn_operators",
     "load_domain",
+    "observation_of",
     "read_transitions",
 ]
 
@@ -74,6 +76,7 @@ _HOMES: Final = {
     "learn": "runs.launch",
     "learn_operators": "learning.learner",
     "load_domain": "world.domain",
+    "observation_of": "world.pictures",
     "read_transitions": "transitions.files",
 }
 """Where every public name is defined, below this package."""

@@ -68,6 +68,18 @@ def test_domain_is_shown_with_its_scenes(printed: Printed) -> None:
     assert command("domain", "cups") == 0
 
 
+def test_rules_are_checked(
+    printed: Printed, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert printed("domain", "cups", "--check", "5")["kept_rules_of"] == "simulator"
+    shutil.copytree(WORLD, tmp_path / "cups")
+    path = tmp_path / "cups" / "robot.py"
+    drifting = path.read_text().replace("state, layout)}", "state, next(LOOKS))}")
+    path.write_text(f"import itertools\n{drifting}\n\nLOOKS = itertools.count()\n")
+    assert command("domain", tmp_path / "cups", "--check", "5") == 1
+    assert "error: observe: the first observe() after reset: exp" in capsys.readouterr().err
+
+
 def test_what_was_learned_is_exact(printed: Printed) -> None:
     found = printed("verify", "run")
     assert (found["precision"], found["recall"], found["effect_accuracy"]) == (1, 1, 1)

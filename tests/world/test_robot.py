@@ -277,3 +277,29 @@ def test_mistakes_of_a_robot_are_told(robot: Callable[[], LampRobot], message: s
         use(environment(robot()))
     with pytest.raises(ConformanceError):
         check_environment(lambda: environment(robot()))
+
+
+def test_the_documented_classes_work(tmp_path: Path) -> None:
+    """The two classes in docs/domains.md, with what they leave open."""
+    page = (Path(__file__).parents[2] / "docs" / "domains.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    (declared,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    (tmp_path / "domain.yaml").write_text(declared)
+    domain = skillwrapper.load_domain(tmp_path / "domain.yaml")
+    names: dict[str, Any] = {
+        "draw_cups": lambda names, state, layout: np.full((4, 4), len(names) * len(state)) / 9,
+        "input": lambda text: "",
+    }
+    exec("import skillwrapper\n" + "\n".join(blocks), names)
+
+    class Arm:
+        camera = arm = property(lambda self: self)
+        read = release = do = lambda self, *_: np.ones((3, 3))
+
+    class Robot(names["CupRobot"], Arm):  # type: ignore[misc]
+        def run(self, skill: str, *arguments: str) -> Any:
+            super().run(skill, *arguments)
+            return False, "why"
+
+    assert check_environment(lambda: RobotEnvironment(Robot(), domain)) == "robot"
+    assert check_environment(lambda: names["CupWorld"](domain)) == "simulator"

@@ -92,6 +92,15 @@ def test_states_are_described_in_one_way_only() -> None:
             lamps.state_from_data(wrong)
 
 
+def test_drawing_that_is_no_picture_is_told() -> None:
+    class Unseen(Lamps):
+        def draw(self, state: Lit, layout: int) -> Any:
+            return {"top": None}
+
+    with pytest.raises(RobotError, match=r"draw: camera 'top': expected an array"):
+        Unseen().reset(seed=0)
+
+
 class Place(NamedTuple):
     row: int
     name: str

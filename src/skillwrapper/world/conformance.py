@@ -42,7 +42,7 @@ def check_environment(
     seed: int = 0,
     steps: int = 40,
     sample: int = 30,
-) -> None:
+) -> Level:
     """Put an environment through every check of its level and of its capabilities.
 
     Args:
@@ -52,6 +52,9 @@ def check_environment(
         seed: of the resets, and of what is chosen by chance.
         steps: how many random skill instances are run in a row.
         sample: how many of the reachable states are looked at more closely.
+
+    Returns:
+        The level.
 
     Raises:
         ConformanceError: names the first check that failed, the method, what was expected and
@@ -75,6 +78,7 @@ def check_environment(
     _check_outcomes(examined, start, seed, steps, compare=level == "simulator")
     check_capabilities(examined, seed, sample)
     _check_close(environment)
+    return level
 
 
 def _check_protocol(environment: Environment) -> None:

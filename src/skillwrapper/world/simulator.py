@@ -27,7 +27,7 @@ from typing import Any, Generic, TypeVar, get_args, get_origin
 
 from pydantic import TypeAdapter, ValidationError
 
-from skillwrapper.errors import ConfigurationError, RobotError
+from skillwrapper.errors import ConfigurationError, PictureError, RobotError
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Outcome
 from skillwrapper.world.observation import Observation
@@ -114,10 +114,13 @@ class Simulator(ABC, Generic[State]):
         """The pictures of the present state.
 
         Raises:
-            RobotError: before the first reset.
+            RobotError: before the first reset, or if what is drawn is no picture.
         """
         state = self._started()
-        return observation_of(self.draw(state, self._layout or 0))
+        try:
+            return observation_of(self.draw(state, self._layout or 0))
+        except PictureError as error:
+            raise RobotError(f"draw: {error}") from error
 
     def close(self) -> None:
         """Nothing is held; as before the first reset."""
