@@ -1,4 +1,4 @@
-"""What a sentence denies is not what it says: the lexicon is undecided rather than wrong (fault 27).
+"""What a sentence denies is not what it says: the lexicon is undecided rather than wrong.
 
 Each sentence is one that a real model might write. Its truth is that of a concept of the lexicon,
 or of its opposite (with an exclamation mark); None where no concept means it.

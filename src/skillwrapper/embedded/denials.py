@@ -14,7 +14,10 @@ from skillwrapper.embedded.concepts import Concept
 
 Span = tuple[int, int]
 
-_NOT = r"not|no|no longer|without|rather than|instead of|non|un(?=-)|\w+n['\N{RIGHT SINGLE QUOTATION MARK}]t"
+_NOT = (
+    r"not|no|no longer|without|rather than|instead of|non|un(?=-)"
+    r"|\w+n['\N{RIGHT SINGLE QUOTATION MARK}]t"
+)
 _OTHERWISE = (
     r"never|cannot|nothing|none|nobody|no ?one|nowhere|neither|nor|except|but|unless|lacks?|lacking"
     r"|absent|absence|fails? to|off|away|left (?:its|the|his)|removed|taken out|out of"
@@ -27,8 +30,8 @@ _NOT_SO_NOW = (
 _NOT_PATTERN = re.compile(rf"\b(?:{_NOT})\b", re.IGNORECASE)
 _DENIAL = re.compile(rf"\b(?:{_NOT}|{_OTHERWISE}|{_NOT_SO_NOW})\b", re.IGNORECASE)
 _BESIDE_THE_POINT = re.compile(
-    r"\b(?:with|and|without) (?:nothing|anything|no(?: other)? \w+|any(?:thing)? other \w+)(?: else)?"
-    r"(?: \w+)? (?:in )?between(?: \w+)?|\bnot only\b|\bwhether or not\b",
+    r"\b(?:with|and|without) (?:nothing|anything|no(?: other)? \w+|any(?:thing)? other \w+)"
+    r"(?: else)?(?: \w+)? (?:in )?between(?: \w+)?|\bnot only\b|\bwhether or not\b",
     re.IGNORECASE,
 )
 _FILLING = re.compile(
