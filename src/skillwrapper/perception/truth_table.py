@@ -17,8 +17,8 @@ from skillwrapper.world.observation import Observation
 from skillwrapper.world.types import Object
 
 
-class PictureReader(Protocol):
-    """Who reads pictures; ``vlm.assistant.Assistant`` is one."""
+class LabelProvider(Protocol):
+    """Who says what is true in pictures; ``vlm.assistant.Assistant`` is one."""
 
     def evaluate(self, questions: Sequence[EvaluationQuestion]) -> Sequence[EvaluationAnswer]:
         """Answer all questions, in their order."""
@@ -35,7 +35,7 @@ class TruthTable:
         question_sizes: how many questions were asked with so many groundings.
     """
 
-    def __init__(self, domain: Domain, reader: PictureReader) -> None:
+    def __init__(self, domain: Domain, reader: LabelProvider) -> None:
         self._domain = domain
         self._reader = reader
         self._labels: dict[tuple[tuple[Object, ...], Predicate], dict[str, Labels]] = {}

@@ -29,7 +29,7 @@ from skillwrapper.learning.inconsistencies import distinct_causes
 from skillwrapper.learning.learner import make_learner
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.perception.reading_calls import ReadingCalls
-from skillwrapper.perception.truth_table import PictureReader, TruthTable
+from skillwrapper.perception.truth_table import LabelProvider, TruthTable
 from skillwrapper.runs.decisions import PredicateDecision
 from skillwrapper.runs.episodes import EpisodeRunner, EpisodeSoFar
 from skillwrapper.runs.events import (
@@ -50,7 +50,7 @@ from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
 
 
-class Respondent(SequenceProposer, Adviser, BatchAdviser, PictureReader, Protocol):
+class Respondent(SequenceProposer, Adviser, BatchAdviser, LabelProvider, Protocol):
     """Who answers the questions of a run; ``vlm.assistant.Assistant`` is one."""
 
 
