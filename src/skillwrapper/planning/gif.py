@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
+from skillwrapper.files.writing import write_atomically
 from skillwrapper.planning.execution import Attempt
 from skillwrapper.world.observation import Observation
 
@@ -41,10 +42,11 @@ def save_gif(path: Path, attempt: Attempt, *, seconds: float = 0.9, goal: str = 
     ]
     shown = [round(1000 * seconds)] * len(frames)
     shown[-1] *= 3
-    path.parent.mkdir(parents=True, exist_ok=True)
+    data = io.BytesIO()
     frames[0].save(
-        path, save_all=True, append_images=frames[1:], duration=shown, loop=0, optimize=False
+        data, "GIF", save_all=True, append_images=frames[1:], duration=shown, loop=0, optimize=False
     )
+    write_atomically(path, data.getvalue())
 
 
 def _frame(observation: Observation, text: str, colour: tuple[int, int, int]) -> Image.Image:

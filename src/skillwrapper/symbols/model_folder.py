@@ -12,7 +12,6 @@ from skillwrapper.symbols.pddl import print_domain
 
 def write_model(folder: Path, model: AbstractModel) -> None:
     """Write ``domain.pddl``, ``predicates.yaml`` and ``model.json``; the folder is made."""
-    folder.mkdir(parents=True, exist_ok=True)
     write_atomically(folder / "predicates.yaml", predicates_to_yaml(model.predicates))
     write_atomically(folder / "model.json", model_to_json(model))
     write_atomically(folder / "domain.pddl", print_domain(model))

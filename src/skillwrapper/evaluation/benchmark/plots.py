@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import io
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
@@ -16,6 +17,7 @@ from skillwrapper.evaluation.benchmark.figures import FIGURES, Spread, group_cel
 from skillwrapper.evaluation.benchmark.tables import place
 from skillwrapper.evaluation.methods.cell import domain_key
 from skillwrapper.evaluation.methods.registry import METHODS
+from skillwrapper.files.writing import write_atomically
 
 _INCHES = (7.5, 4.5)
 _WIDE_INCHES = (11.0, 4.5)
@@ -36,7 +38,6 @@ def plot_experiment(cells: Sequence[CellResult], folder: Path) -> tuple[Path, ..
         MissingDependencyError: if matplotlib is not installed.
     """
     figure_of = _figure_class()
-    folder.mkdir(parents=True, exist_ok=True)
     written = []
     for (domain, noise), by_method in group_cells(cells).items():
         where, stem = place(domain, noise), f"{domain_key(domain)}-{noise}"
@@ -63,7 +64,9 @@ def _figure_class() -> Any:
 
 
 def _save(figure: Any, path: Path) -> Path:
-    figure.savefig(path, dpi=_DOTS_PER_INCH)
+    data = io.BytesIO()
+    figure.savefig(data, dpi=_DOTS_PER_INCH, format="png")
+    write_atomically(path, data.getvalue())
     return path
 
 

@@ -15,6 +15,7 @@ from skillwrapper.evaluation.exact.predictions import predict_all
 from skillwrapper.evaluation.exact.tallies import Tally, tally_by_skill
 from skillwrapper.evaluation.exact.verdicts import Refutation, Verdict, Verdicts, judge
 from skillwrapper.evaluation.exact.vocabulary import Vocabulary, vocabulary_of
+from skillwrapper.files.writing import write_atomically
 from skillwrapper.grounding import GroundModel
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.world.observation import Observation
@@ -60,12 +61,11 @@ class Counterexample:
 
     def save_pictures(self, folder: Path) -> tuple[Path, ...]:
         """Write the pictures before and after, as ``<verdict>-before-<camera>.png``, ..."""
-        folder.mkdir(parents=True, exist_ok=True)
         written = []
         for moment, observation in (("before", self.before), ("after", self.after)):
             for picture in observation.pictures:
                 path = folder / f"{self.verdict}-{moment}-{picture.camera}.png"
-                path.write_bytes(picture.png)
+                write_atomically(path, picture.png)
                 written.append(path)
         return tuple(written)
 
