@@ -43,6 +43,7 @@ def learn(
     seed: Annotated[int | None, option("seed")] = None,
     iterations: Annotated[int | None, option("iterations")] = None,
     budget: Annotated[int | None, option("budget")] = None,
+    explore: Annotated[str | None, option("explore")] = None,
     candidates: Annotated[int | None, option("candidates")] = None,
     threshold: Annotated[float | None, option("threshold")] = None,
     model: Annotated[str | None, option("model")] = None,

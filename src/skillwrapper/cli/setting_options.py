@@ -57,6 +57,7 @@ _POPULAR: Mapping[str, str] = MappingProxyType(
         "seed": "seed",
         "iterations": "iterations",
         "budget": "exploration.budget",
+        "explore": "exploration.explorer",
         "candidates": "exploration.candidates",
         "threshold": "learning.threshold",
         "model": "model.name",

@@ -169,6 +169,10 @@ class RunArchive:
         Raises:
             ConfigurationError: if the file is missing or damaged.
         """
+        return self._domain
+
+    @cached_property
+    def _domain(self) -> Domain:
         return load_domain(self.layout.domain)
 
     def episode(self, number: int) -> EpisodeSoFar | None:
