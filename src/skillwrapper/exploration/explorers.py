@@ -8,6 +8,7 @@ import numpy as np
 
 from skillwrapper.errors import UnknownNameError
 from skillwrapper.exploration.explorer import Explorer, NextSkill, Situation
+from skillwrapper.exploration.mixed import MixedExplorer
 from skillwrapper.exploration.planned import PlannedExplorer
 from skillwrapper.exploration.proposed import SequenceExplorer, random_sequence
 from skillwrapper.exploration.questions import SequenceProposer
@@ -39,6 +40,7 @@ class RandomExplorer:
 MakeExplorer = Callable[[Domain, SequenceProposer, ExplorationSettings, int], Explorer]
 EXPLORERS: Mapping[str, MakeExplorer] = {
     "planned": lambda domain, _, settings, seed: PlannedExplorer(domain, settings, seed),
+    "mixed": MixedExplorer,
     "paper": SequenceExplorer,
     "random": RandomExplorer,
 }

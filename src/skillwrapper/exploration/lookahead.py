@@ -67,9 +67,9 @@ def look_ahead(
     """
     nodes = [(graph.add(start), roles)]
     known = {(nodes[0][0], roles.tobytes())}
-    parent, step, distance = [-1], [-1], [0]
+    parent, step = [-1], [-1]
     layer = [0]
-    for deep in range(1, depth + 1):
+    for _ in range(depth):
         after: list[int] = []
         for node, state, number in _steps(graph, [nodes[n][0] for n in layer], layer, scene):
             if node == 0 and number in blocked:
@@ -82,16 +82,44 @@ def look_ahead(
                 nodes.append((state, then))
                 parent.append(node)
                 step.append(number)
-                distance.append(deep)
         layer = after
         if not layer:
             break
+    return _as_arrays(graph, scene, nodes, parent, step)
+
+
+def roll_out(
+    graph: StateGraph, start: Labels, roles: Roles, scene: SceneRoles, sequence: Sequence[int]
+) -> Lookahead:
+    """The nodes before each skill of a sequence, as far as the model knows.
+
+    A skill that does not surely work changes nothing.
+    """
+    nodes = [(graph.add(start), roles)]
+    for number in sequence[:-1]:
+        state, present = nodes[-1]
+        following = [after for _, after, n in _steps(graph, [state], [0], scene) if n == number]
+        nodes.append((following[0], scene.after(present, number)) if following else nodes[-1])
+    parent = list(range(-1, len(nodes) - 1))
+    return _as_arrays(graph, scene, nodes, parent, [-1, *sequence[:-1]])
+
+
+def _as_arrays(
+    graph: StateGraph,
+    scene: SceneRoles,
+    nodes: Sequence[tuple[int, Roles]],
+    parent: Sequence[int],
+    step: Sequence[int],
+) -> Lookahead:
     numbers, state_of = np.unique([state for state, _ in nodes], return_inverse=True)
+    depth: list[int] = []
+    for before in parent:
+        depth.append(depth[before] + 1 if before >= 0 else 0)
     return Lookahead(
         graph.states(numbers.tolist()),
         state_of.ravel(),
-        np.array([then for _, then in nodes], dtype=np.intp),
-        np.array(distance, dtype=np.intp),
+        np.array([roles for _, roles in nodes], dtype=np.intp),
+        np.array(depth, dtype=np.intp),
         np.array(parent, dtype=np.intp),
         np.array(step, dtype=np.intp),
         _sure(graph, numbers.tolist(), scene),

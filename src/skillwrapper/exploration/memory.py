@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.exploration.roles import RoleNumbers, Roles, SceneRoles
 from skillwrapper.grounding.abstract_states import different_rows
+from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.scenes import Scene
@@ -100,6 +102,15 @@ class Memory:
             self.roles = own.after(self.roles, number)
         else:
             self._failed[instance.skill] |= set(enumerate(signature))
+
+    def pursue(
+        self, causes: Iterable[Inconsistency], scene: SceneRoles, instance: SkillInstance
+    ) -> None:
+        """Take note that what the model cannot explain is looked at again by an attempt now."""
+        signature = scene.signature(self.roles, scene.number[instance])
+        found = {(cause.skill, self.signatures[cause.culprit]) for cause in causes}
+        if (instance.skill, signature) in found:
+            self.pursued[instance.skill, signature] += 1
 
     def was_tried(self, observation: str, instance: SkillInstance) -> bool:
         """Whether an instance was run where the same was seen, by the observation's key."""

@@ -7,26 +7,28 @@ it takes. After every outcome all is thought over anew (docs/semantics.md D16).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillwrapper.exploration.beliefs import Beliefs
 from skillwrapper.exploration.explorer import NextSkill, Situation
-from skillwrapper.exploration.lookahead import Lookahead, look_ahead
+from skillwrapper.exploration.lookahead import Lookahead, look_ahead, roll_out
 from skillwrapper.exploration.memory import Memory
 from skillwrapper.exploration.roles import SceneRoles
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.exploration.worth import Weights, Worth, weigh
-from skillwrapper.grounding import AtomSpace, GroundModel, Labels
+from skillwrapper.exploration.worth import Values, Weights, Worth, weigh
+from skillwrapper.grounding import AtomSpace, GroundModel
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.search import StateGraph
-from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
 from skillwrapper.symbols.operators import Operator
 from skillwrapper.world.domain import Domain
-from skillwrapper.world.episode import Episode
+from skillwrapper.world.episode import Episode, Transition
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 _NOTHING = 1e-3
@@ -38,6 +40,49 @@ _WHY: Mapping[str, str] = {
     "cover": "{skill} was never tried after what was last done with these objects",
     "witness": "looks again at an attempt at {skill} that the model cannot explain",
 }
+
+
+@dataclass(frozen=True, eq=False)
+class Thought:
+    """What can be done in a situation, and what it is worth.
+
+    Attributes:
+        scene: the skill instances.
+        lookahead: what is within reach, the present first.
+        worth: what every instance is worth in every node, by what for.
+        values: the same all together; less than nothing for what was tried before just here.
+        causes: what the model cannot explain, one inconsistency for each cause.
+    """
+
+    scene: SceneRoles
+    lookahead: Lookahead
+    worth: Worth
+    values: Values
+    causes: tuple[Inconsistency, ...]
+
+    @property
+    def scores(self) -> Values:
+        """What every attempt is worth for its price (nodes, instances)."""
+        return self.values / (self.lookahead.depth[:, np.newaxis] + 1)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing within reach is worth a try."""
+        return bool(self.values.max(initial=0.0) < _NOTHING)
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether moreover all was tried here, and nothing leads away."""
+        return len(self.values) == 1 and bool(self.values.max(initial=-1.0) < 0)
+
+    def is_predicted(self, instance: SkillInstance) -> bool:
+        """Whether an instance surely works now, by the model."""
+        state = self.lookahead.state[0]
+        return bool(self.lookahead.sure[state, self.scene.number[instance]])
+
+    def is_witness(self, instance: SkillInstance) -> bool:
+        """Whether running an instance now is worth it as what the model cannot explain."""
+        return self.worth.main_part(0, self.scene.number[instance]) == "witness"
 
 
 class PlannedExplorer:
@@ -57,79 +102,30 @@ class PlannedExplorer:
         seed: int,
         weights: Weights | None = None,
     ) -> None:
-        self._settings = settings
-        self._weights = weights or Weights()
+        self._settings, self._weights = settings, weights or Weights()
         self._chance = np.random.default_rng(seed)
-        self._memory = Memory(domain)
-        self._beliefs = Beliefs()
+        self._memory, self._beliefs = Memory(domain), Beliefs()
         self._graph: tuple[tuple[AtomSpace, tuple[Operator, ...]], StateGraph] | None = None
         self._noted = 0
-        self._predicted: bool | None = None
+        self._thought: Thought | None = None
 
     def next_skill(self, situation: Situation) -> NextSkill:
-        """The first step towards the best attempt within reach, or the end if none is worth it."""
-        self._catch_up(situation)
-        fit, scene = situation.fit, self._memory.scene(situation.scene)
-        lookahead = self._look_ahead(situation, scene)
-        causes = distinct_causes(fit.inconsistencies)
-        doubt = self._memory.surprises.doubt
-        expected = self._beliefs.expect(
-            fit, situation.space, lookahead.states, scene.instances, doubt
-        )
-        worth = weigh(
-            lookahead,
-            expected,
-            scene,
-            self._memory,
-            unproven=frozenset(s for s, of_skill in fit.skills.items() if not of_skill.operators),
-            causes=causes,
-            weights=self._weights,
-        )
-        values = worth.total
-        for number, instance in enumerate(scene.instances):
-            if self._memory.was_tried(situation.observation.key, instance):
-                values[0, number] = -_NOTHING
-        idle = bool(values.max() < _NOTHING)
-        if idle and situation.done and len(values) == 1 and values.max() < 0:
-            return NextSkill(None, "all was tried here, and nothing leads away")
-        values += 1e-6 * self._chance.random(len(scene.instances))
-        price = lookahead.depth[:, np.newaxis] + 1
-        node, number = (int(n) for n in np.unravel_index(np.argmax(values / price), values.shape))
-        path = [*lookahead.path(node), number]
-        self._predicted = bool(lookahead.sure[0, path[0]])
-        if len(path) == 1 and worth.main_part(node, number) == "witness":
-            self._pursue(causes, scene.instances[number], scene)
-        reason = "drawn by chance, as nothing within reach seems worth a try"
-        if not idle:
-            reason = self._reason(situation, lookahead, worth, node, scene.instances[number])
-        return NextSkill(scene.instances[path[0]], reason)
+        """The first step towards the best attempt within reach, or the end if one is stuck."""
+        return self.choose(situation, self.think(situation))
 
     def record(self, episode: Episode) -> None:
         """Take note of an episode that has ended."""
-        self._note(episode)
+        self._note(episode.scene, episode.transitions)
         self._noted = 0
 
-    def _catch_up(self, situation: Situation) -> None:
-        self._note(Episode(situation.scene, 0, situation.done))
+    def think(self, situation: Situation) -> Thought:
+        """Weigh everything within reach; to be called once in every situation."""
+        self._note(situation.scene, situation.done)
         if not situation.done:
             self._memory.start(situation.scene)
-
-    def _note(self, episode: Episode) -> None:
-        for transition in episode.transitions[self._noted :]:
-            if self._noted == 0:
-                self._memory.start(episode.scene)
-            self._memory.note(episode.scene, transition, predicted=self._predicted)
-            self._noted, self._predicted = self._noted + 1, None
-
-    def _look_ahead(self, situation: Situation, scene: SceneRoles) -> Lookahead:
-        operators = tuple(learned.operator for learned in situation.fit.operators)
-        key = (situation.space, operators)
-        if self._graph is None or self._graph[0] != key:
-            model = GroundModel.from_operators(operators, situation.space)
-            self._graph = key, StateGraph(model, self._settings.weighed)
-        seen = situation.observation.key
-        return look_ahead(
-            self._graph[1],
+        seen, scene = situation.observation.key, self._memory.scene(situation.scene)
+        lookahead = look_ahead(
+            self._graph_of(situation),
             situation.state,
             self._memory.roles,
             scene,
@@ -137,42 +133,94 @@ class PlannedExplorer:
             most=max(1, self._settings.weighed // max(1, len(scene.instances))),
             blocked=[n for n, i in enumerate(scene.instances) if self._memory.has_failed(seen, i)],
         )
+        causes = distinct_causes(situation.fit.inconsistencies)
+        worth = self._weigh(situation, lookahead, causes)
+        values = worth.total
+        tried = [self._memory.was_tried(seen, instance) for instance in scene.instances]
+        values[0, tried] = -_NOTHING
+        self._thought = Thought(scene, lookahead, worth, values, causes)
+        return self._thought
 
-    def _pursue(
-        self, causes: tuple[Inconsistency, ...], instance: SkillInstance, scene: SceneRoles
-    ) -> None:
-        """Take note that a cause is gone after once more."""
-        signature = scene.signature(self._memory.roles, scene.number[instance])
-        for cause in causes:
-            if (
-                cause.skill == instance.skill
-                and self._memory.signatures[cause.culprit] == signature
-            ):
-                self._memory.pursued[cause.skill, signature] += 1
+    def choose(self, situation: Situation, thought: Thought) -> NextSkill:
+        """What comes of a thought."""
+        if thought.is_idle and thought.is_stuck and situation.done:
+            return NextSkill(None, "all was tried here, and nothing leads away")
+        scores = thought.scores + 1e-6 * self._chance.random(len(thought.scene.instances))
+        node, number = (int(n) for n in np.unravel_index(np.argmax(scores), scores.shape))
+        first = [*thought.lookahead.path(node), number][0]
+        reason = "drawn by chance, as nothing within reach seems worth a try"
+        if not thought.is_idle:
+            reason = self._reason(situation, thought, node, number)
+        return NextSkill(thought.scene.instances[first], reason)
 
-    def _reason(
-        self,
-        situation: Situation,
-        lookahead: Lookahead,
-        worth: Worth,
-        node: int,
-        instance: SkillInstance,
-    ) -> str:
+    def follow(self, situation: Situation, sequence: Sequence[SkillInstance]) -> Values:
+        """What each skill of a sequence is worth (steps,), if the model is right on the way."""
+        scene = self._memory.scene(situation.scene)
+        numbers = [scene.number[instance] for instance in sequence]
+        graph, roles = self._graph_of(situation), self._memory.roles
+        way = roll_out(graph, situation.state, roles, scene, numbers)
+        worth = self._weigh(situation, way, distinct_causes(situation.fit.inconsistencies))
+        values: Values = worth.total[np.arange(len(numbers)), numbers]
+        return values
+
+    def _graph_of(self, situation: Situation) -> StateGraph:
+        operators = tuple(learned.operator for learned in situation.fit.operators)
+        key = (situation.space, operators)
+        if self._graph is None or self._graph[0] != key:
+            model = GroundModel.from_operators(operators, situation.space)
+            self._graph = key, StateGraph(model, self._settings.weighed)
+        return self._graph[1]
+
+    def _weigh(
+        self, situation: Situation, lookahead: Lookahead, causes: tuple[Inconsistency, ...]
+    ) -> Worth:
+        fit, scene = situation.fit, self._memory.scene(situation.scene)
+        doubt = self._memory.surprises.doubt
+        expected = self._beliefs.expect(
+            fit, situation.space, lookahead.states, scene.instances, doubt
+        )
+        unproven = frozenset(s for s, of_skill in fit.skills.items() if not of_skill.operators)
+        return weigh(
+            lookahead,
+            expected,
+            scene,
+            self._memory,
+            unproven=unproven,
+            causes=causes,
+            weights=self._weights,
+        )
+
+    def _note(self, scene: Scene, done: Sequence[Transition]) -> None:
+        """Take note of what was done since the last time."""
+        for transition in done[self._noted :]:
+            if self._noted == 0:
+                self._memory.start(scene)
+            thought, instance = self._thought, transition.instance
+            if thought is not None and thought.is_witness(instance):
+                self._memory.pursue(thought.causes, thought.scene, instance)
+            predicted = None if thought is None else thought.is_predicted(instance)
+            self._memory.note(scene, transition, predicted=predicted)
+            self._noted, self._thought = self._noted + 1, None
+
+    def _reason(self, situation: Situation, thought: Thought, node: int, number: int) -> str:
         """Why an attempt is made, in words."""
-        number = self._memory.scene(situation.scene).number[instance]
-        part = worth.main_part(node, number)
+        instance, part = thought.scene.instances[number], thought.worth.main_part(node, number)
         if part == "test":
-            state = lookahead.states[lookahead.state[[node]]]
-            reason = self._tested(situation.fit, situation.space, state, instance)
+            lookahead = thought.lookahead
+            reason = self._tested(situation, lookahead.states[lookahead.state[[node]]], instance)
         else:
             reason = _WHY[part].format(skill=instance.skill, instance=instance)
-        away = int(lookahead.depth[node])
+        away = int(thought.lookahead.depth[node])
         return f"on the way, {away} more to go: {reason}" if away else reason
 
-    def _tested(self, fit: Fit, space: AtomSpace, state: Labels, instance: SkillInstance) -> str:
+    def _tested(
+        self, situation: Situation, state: NDArray[np.int8], instance: SkillInstance
+    ) -> str:
+        space = situation.space
         arguments = np.array([space.index.numbers(instance.arguments)], dtype=np.intp)
         attempts = Attempts.everywhere(AbstractStates(state), arguments)
-        beliefs = self._beliefs.of_skill(fit, instance.skill, self._memory.surprises.doubt)
-        doubts = [s.doubts(space, attempts) for s in beliefs.spaces]
+        doubt = self._memory.surprises.doubt
+        beliefs = self._beliefs.of_skill(situation.fit, instance.skill, doubt)
+        doubts = [version_space.doubts(space, attempts) for version_space in beliefs.spaces]
         _, conditions = max(doubts, key=lambda found: found[0])
         return f"tests whether {instance} needs {' and '.join(conditions)}"

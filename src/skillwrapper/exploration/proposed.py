@@ -62,9 +62,8 @@ class SequenceExplorer:
 
     def choose(self, situation: Situation) -> SequenceChoice:
         """The next sequence."""
-        allowed = ground_skills(self._domain.skills, situation.scene.objects)
         state = situation.state  # what is seen is read before anything is asked for
-        sequences, notes = self._candidates(situation, allowed)
+        sequences, notes = self.propose(situation)
         candidates = self._score(situation, state, sequences)
         pool = tuple(range(len(candidates)))
         if self._settings.choice == "pareto":
@@ -72,9 +71,11 @@ class SequenceExplorer:
         chosen = pool[int(self._chance.integers(len(pool)))]
         return SequenceChoice(candidates[chosen].sequence, candidates, pool, notes)
 
-    def _candidates(
-        self, situation: Situation, allowed: Sequence[SkillInstance]
+    def propose(
+        self, situation: Situation
     ) -> tuple[list[tuple[SkillInstance, ...]], tuple[str, ...]]:
+        """Sequences that can be run, and what was repaired or dropped."""
+        allowed = ground_skills(self._domain.skills, situation.scene.objects)
         answer = self._proposer.propose_sequences(self._question(situation, allowed))
         notes = list(answer.unusable)
         sequences = []

@@ -14,8 +14,8 @@ class ExplorationSettings(BaseModel):
 
     explorer: str = Field(
         default="paper",
-        description="who chooses what to try next: planned, by expected information; paper, as "
-        "published; or random",
+        description="who chooses what to try next: planned, by expected information; mixed, the "
+        "same with proposed sequences among the candidates; paper, as published; or random",
     )
     lookahead: int = Field(
         default=15,
