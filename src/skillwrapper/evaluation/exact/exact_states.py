@@ -13,8 +13,8 @@ from skillwrapper.evaluation.exact.labelled_states import (
     LabelledStates,
     SceneStates,
 )
-from skillwrapper.evaluation.exact.state_readers import PictureReader, StateReader
-from skillwrapper.world.capabilities import Enumerable, require, supports
+from skillwrapper.evaluation.exact.state_readers import PictureReader, StateReader, system_reader
+from skillwrapper.world.capabilities import Enumerable, Truthful, require, supports
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,14 @@ class ExactStates:
     def labelled(self, reader: StateReader) -> tuple[LabelledStates, ...]:
         """The states with the labels of another reader."""
         return tuple(LabelledStates(states, reader) for states in self.scenes)
+
+    def told(self) -> tuple[LabelledStates, ...]:
+        """The states with what the simulator says is true; none where it says nothing."""
+        return tuple(
+            LabelledStates(states, system_reader(require(states.environment, Truthful, "facts")))
+            for states in self.scenes
+            if supports(states.environment, Truthful)
+        )
 
 
 def scene_states(

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from skillwrapper.errors import InternalError
 from skillwrapper.evaluation.exact.learning_curves import Stage
-from skillwrapper.evaluation.exact.state_readers import Situation, StateReader, system_reader
+from skillwrapper.evaluation.exact.state_readers import AtomReader, Situation, system_reader
 from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.invention.fitter import Fitter
@@ -24,6 +24,7 @@ from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.runs.archive import RunArchive
+from skillwrapper.symbols import Atom
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world.capabilities import Settable, Simulable, Truthful, require
 from skillwrapper.world.environment import Environment
@@ -32,40 +33,42 @@ from skillwrapper.world.observation import Observation
 
 
 @dataclass(frozen=True)
-class RecordedStates:
+class RecordedFacts:
     """True labels of recorded pictures (``perception.labelling.TruthSource``).
 
     Attributes:
-        reader: knows the true atoms of states.
-        states: the state of every recorded picture, by the key of its observation.
+        facts: what is true in every recorded picture, by the key of its observation.
     """
 
-    reader: StateReader
-    states: dict[str, Any] = field(default_factory=dict)
+    facts: dict[str, frozenset[Atom]] = field(default_factory=dict)
 
     def add(self, environment: Environment, episode: Episode) -> None:
-        """Find out the states of an episode by running it again, without pictures.
+        """Find out what was true in an episode by running it again, without pictures.
 
         Raises:
             ConfigurationError: if the environment does not tell its states.
         """
         purpose = "learning from true states"
         simulable = require(environment, Simulable, purpose)
+        truthful = require(environment, Truthful, purpose)
         environment.reset(seed=episode.seed, scene=episode.scene.name)
         state = require(environment, Settable, purpose).get_state()
         for transition in episode.transitions:
-            self.states[transition.before.key] = state
+            self._note(transition.before, truthful, state)
             _, state = simulable.successor(state, transition.instance)
-            self.states[transition.after.key] = state
+            self._note(transition.after, truthful, state)
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         """Nothing to do: all labels are there."""
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         """True labels (observations, atoms)."""
-        return self.reader.read(
-            space, [Situation.seen(o, self.states[o.key]) for o in observations]
-        )
+        reader = AtomReader(lambda facts: facts)
+        seen = [Situation.seen(o, self.facts[o.key]) for o in observations]
+        return reader.read(space, seen)
+
+    def _note(self, seen: Observation, truthful: Truthful, state: Any) -> None:
+        self.facts[seen.key] = frozenset(Atom(*pair) for pair in truthful.true_atoms(state))
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,7 @@ class SystemMethod:
         predicates = context.package.system_predicates
         reader = system_reader(require(context.environment, Truthful, f"the method {self.name}"))
         episodes = RunArchive.open(context.source / "run").episodes()
-        recorded = RecordedStates(reader)
+        recorded = RecordedFacts()
         done = RecordedTransitions(context.environment.domain)
         learner = FaithfulLearner(LearnerSettings(absences=self.absences))
         fitter = Fitter(Labeller(done, recorded), learner)
@@ -113,7 +116,7 @@ class SystemMethod:
             done.add(episode)
             fit = fitter.fit(predicates)
             stages.append(Stage(len(done), fit.model))
-        exact = context.exact.labelled(reader)
+        exact = context.exact.told()
         solver = context.solver(fit.model, reader, exact)
         yield Prepared(
             solver,
