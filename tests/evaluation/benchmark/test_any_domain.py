@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -36,7 +35,9 @@ def done(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     """A finished experiment on a domain in a folder, that can do much or little."""
     place = tmp_path_factory.mktemp("experiment")
     parts = PARTS if request.param == "Shop" else PARTS.splitlines(keepends=True)[0]
-    domain = write_lamp_shop(place / "shop", robot=request.param, parts=parts + "problems: p.yaml\n")
+    domain = write_lamp_shop(
+        place / "shop", robot=request.param, parts=parts + "problems: p.yaml\n"
+    )
     if request.param == "Bare":
         (domain / "p.yaml").write_text(
             "domain: shop\nproblems:\n- {name: words, class: easy, scene: shelf, seed: 1, "
@@ -71,8 +72,9 @@ def test_what_a_baseline_lacks_is_one_sentence(done: Any) -> None:
     robot, _, data, exit_code = done
     assert exit_code == 1
     failed = {name.partition("-")[0]: text for name, text in data["failed"].items()}
-    assert "expected a key 'expert' for comparing with an expert's model, got none" in (
-        failed["expert"]
+    assert (
+        "expected a key 'expert' for comparing with an expert's model, got none"
+        in (failed["expert"])
     )
     assert ("system" in failed) is (robot == "Bare")
     if robot == "Bare":

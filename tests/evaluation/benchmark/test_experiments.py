@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from lamp_shop import write_lamp_shop
 
 from skillwrapper.errors import ConfigurationError, RunFolderError, UserError
 from skillwrapper.evaluation.benchmark.experiment_files import read_experiment
@@ -165,3 +166,70 @@ def _contents(path: Path) -> list[tuple[str, bytes]]:
         return (p for p in sorted(path.rglob("*")) if p.is_file())
 
     return [(str(p), p.read_bytes()) for p in files()]
+
+
+MOVED = (
+    ("  budget: 3\n", r":6: .*'budget' is now 'exploration\.budget'"),
+    ("  time_limit: 3\n", r":6: .*'time_limit' is now 'planner\.time_limit'"),
+    ("  model: openai:gpt-5\n", r":6: .*now 'model\.name', e\.g\. 'model: \{name: openai:gpt-5\}'"),
+    ("  model: {noise: gpt5}\n", r":6: .*expected the noise as 'noise: \[\.\.\.\]'"),
+)
+
+
+@pytest.mark.parametrize(("line", "message"), MOVED)
+def test_settings_that_stood_elsewhere(file: Path, line: str, message: str) -> None:
+    file.write_text(SMALL.replace("  iterations: 2\n", line))
+    with pytest.raises(UserError, match=message):
+        read_experiment(file)
+
+
+def test_settings_from_several_places(file: Path, tmp_path: Path) -> None:
+    """D22: one tree for runs and experiments; the file, over it --config, over both --set."""
+    (tmp_path / "more.yaml").write_text("iterations: 3\nexploration: {budget: 7}\n")
+    changes = ("exploration.budget=8", "planner.time_limit=4")
+    settings = read_experiment(file, tmp_path / "more.yaml", changes).settings
+    assert (settings.iterations, settings.exploration.budget) == (3, 8)
+    assert settings.planner.time_limit == 4
+    run = settings.run("burger", 5, "gpt5")
+    assert (run.seed, run.exploration.budget, run.model.noise) == (5, 8, "gpt5")
+    with pytest.raises(UserError, match=r"--set: unknown setting 'planner\.timelimit'.*time_limit"):
+        read_experiment(file, None, ["planner.timelimit=4"])
+    (tmp_path / "more.yaml").write_text("\niteratons: 3\n")
+    with pytest.raises(UserError, match=r"more\.yaml:2: unknown setting 'iteratons'.*'iterations'"):
+        read_experiment(file, tmp_path / "more.yaml")
+
+
+@pytest.mark.parametrize("left", ["nothing", "leftover", "experiment"])
+def test_killed_in_its_first_moments(file: Path, tmp_path: Path, left: str) -> None:
+    """Fault 14: whatever a kill left of making the folder, the same command goes on."""
+    out = tmp_path / "out"
+    out.mkdir()
+    if left == "leftover":
+        (out / ".experiment.yaml.17.tmp").write_text("name: sm")
+    if left == "experiment":
+        whole = ExperimentFolder.create_or_resume(tmp_path / "whole", read_experiment(file))
+        (out / "experiment.yaml").write_text((whole.path / "experiment.yaml").read_text())
+    folder = ExperimentFolder.create_or_resume(out, read_experiment(file))
+    assert len(folder.problems("burger").problems) == 4
+
+
+def test_a_file_of_something_else_as_problems(file: Path, tmp_path: Path) -> None:
+    (tmp_path / "secret.yaml").write_text("password: hunter2\n")
+    file.write_text(SMALL.replace("{easy: 2", "{file: secret.yaml, easy: 2"))
+    with pytest.raises(
+        ConfigurationError, match=r"small\.yaml:7: .*expected a file of pr"
+    ) as caught:
+        read_experiment(file)
+    assert "hunter2" not in str(caught.value)
+
+
+def test_domains_are_references(file: Path, tmp_path: Path) -> None:
+    write_lamp_shop(tmp_path / "shop")
+    file.write_text(SMALL.replace("seeds:", "domains: [burger, ./shop]\nseeds:"))
+    experiment = read_experiment(file)
+    assert experiment.domains == ("burger", str(tmp_path / "shop"))
+    names = {cell.name for cell in experiment.cells}
+    assert len(names) == len(experiment.cells)
+    assert all("/" not in name for name in names)
+    folder = ExperimentFolder.create_or_resume(tmp_path / "out", experiment)
+    assert folder.problems(str(tmp_path / "shop")).problems == ()

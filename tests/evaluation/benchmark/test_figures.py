@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,7 @@ from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
 from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.exact.learning_curves import area_under
 from skillwrapper.evaluation.published import published_figures
+from skillwrapper.runs.settings import ModelSettings
 
 ALL, NONE = (True,) * 4, (False,) * 4
 
@@ -189,3 +191,34 @@ def test_plots_without_matplotlib(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(plots.importlib, "import_module", missing)
     with pytest.raises(MissingDependencyError, match=r"pip install 'skillwrapper\[plot\]'"):
         plots.plot_experiment(CELLS, tmp_path)
+
+
+def test_undefined_is_neither_one_nor_left_out_silently() -> None:
+    """Fault 25: a model that predicts nothing has no precision."""
+    nothing = replace(CELLS[0], exact={**(CELLS[0].exact or {}), "precision": None})
+    texts = {t.title: t.rows for t in ExperimentSummary.of(EXPERIMENT, [nothing]).tables()}
+    row = texts["The model, checked in every state (burger, noise none)"][0]
+    assert row[1] == "undefined"
+    both = {t.title: t.rows for t in ExperimentSummary.of(EXPERIMENT, [nothing, CELLS[1]]).tables()}
+    row = both["The model, checked in every state (burger, noise none)"][0]
+    assert row[1].endswith("(1 of 2 seeds)")
+    assert ExperimentSummary.of(EXPERIMENT, [nothing]).to_json()["methods"][0]["precision"] is None
+
+
+def test_no_p_value_where_a_constant_of_the_stand_in_decides() -> None:
+    """D25: how well the stand-in guesses actions is a number of ours."""
+    found = report()
+    assert [c.p_value for c in found.comparisons] == [None]
+    table = next(t for t in found.tables() if t.title.startswith("Same problems"))
+    assert table.rows[0][-1] == "-"
+    assert "No p-value where the proposals of the stand-in model decide" in table.note
+    real = EXPERIMENT.settings.model_copy(update={"model": ModelSettings(name="openai:x")})
+    asked = EXPERIMENT.model_copy(update={"settings": real})
+    assert ExperimentSummary.of(asked, CELLS).comparisons[0].p_value == mcnemar(6, 0)
+
+
+def test_every_table_says_who_carries_what() -> None:
+    for table in report().tables():
+        assert "Who carries what: " in table.note
+    note = report().tables()[0].note
+    assert "ViLa: the model names every action; the package executes them." in note

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -77,13 +78,20 @@ class ProblemGenerator:
     def _solvable(self, kind: ProblemClass, count: int) -> Iterator[Problem]:
         lengths = _LENGTHS[kind]
         for number in range(count):
-            length = lengths[number * len(lengths) // count]
-            start, goal = self._draw(
-                partial(self._at_distance, length),
-                f"optimal solutions of {length} skills",
-                standard=number % 2 == 0,
-            )
+            wanted = lengths[number * len(lengths) // count]
+            length, start, goal = self._draw_length(lengths.start, wanted, number % 2 == 0)
             yield self._problem(kind, number, start, goal, length=length)
+
+    def _draw_length(self, shortest: int, wanted: int, standard: bool) -> tuple[int, int, int]:
+        """Length, start and goal: of the wanted length, or shorter where that is not to be had."""
+        for length in range(wanted, shortest, -1):
+            with suppress(ConfigurationError):
+                return (length, *self._draw_at(length, standard))
+        return (shortest, *self._draw_at(shortest, standard))
+
+    def _draw_at(self, length: int, standard: bool) -> tuple[int, int]:
+        what = f"optimal solutions of {length} skills"
+        return self._draw(partial(self._at_distance, length), what, standard=standard)
 
     def _impossible(self, count: int) -> Iterator[Problem]:
         known = self._impossibility
