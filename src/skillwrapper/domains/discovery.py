@@ -53,7 +53,7 @@ def find_domain(reference: str) -> DomainPackage:
     if path.exists() or _looks_like_a_path(reference):
         return DomainPackage.read(path)
     if ":" in reference:
-        return _as_package(load_object(reference, Path(), "DOMAIN"), reference)
+        return _as_package(load_object(reference, Path(), f"domain '{reference}'"), reference)
     names = (*domain_names(), "a folder with a domain.yaml")
     raise UnknownNameError("domain", reference, names)
 

@@ -46,5 +46,5 @@ class Eyesight:
         if reference is None:
             return cls.for_packages(bundled_domains())
         package = find_domain(reference)
-        package.require("scene_reader", "the embedded model; or choose another model")
+        package.require("scene_reader", "the embedded model", "choose another --model, or add one")
         return cls.for_packages([package])

@@ -123,18 +123,19 @@ class DomainPackage:
         """Whether a key of the file names something."""
         return bool(getattr(self.entries, part))
 
-    def require(self, part: str, purpose: str) -> None:
+    def require(self, part: str, purpose: str, otherwise: str = "") -> None:
         """Make sure that a key of the file names something.
 
         Args:
             part: the key.
             purpose: what it is needed for.
+            otherwise: what can be done instead.
 
         Raises:
             ConfigurationError: if it does not.
         """
         if not self.has(part):
-            raise self._missing(part, purpose)
+            raise self._missing(part, purpose, otherwise)
 
     def make_environment(self, drawing: str | None = None) -> Environment:
         """A new environment.
@@ -271,8 +272,11 @@ class DomainPackage:
             raise self._missing(part, purpose)
         return named
 
-    def _missing(self, part: str, purpose: str) -> ConfigurationError:
-        return ConfigurationError(f"{self.file}: expected a key '{part}' for {purpose}, got none")
+    def _missing(self, part: str, purpose: str, otherwise: str = "") -> ConfigurationError:
+        hint = f"; {otherwise}" if otherwise else ""
+        return ConfigurationError(
+            f"{self.file}: expected a key '{part}' for {purpose}, got none{hint}"
+        )
 
     def _unexpected(self, location: Sequence[str], wanted: str, got: object) -> ConfigurationError:
         kind = type(got).__name__

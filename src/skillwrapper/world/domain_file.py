@@ -80,9 +80,15 @@ class DomainFile(Entry):
     failures_change_nothing: bool = Field(
         False, description="whether a failed skill is known to leave the state as it was"
     )
-    types: dict[Name, TypeEntry] = Field(max_length=_MOST_NAMES, description="by name")
-    objects: dict[Name, ObjectEntry] = Field(max_length=_MOST_NAMES, description="by name")
-    skills: dict[Name, SkillEntry] = Field(max_length=_MOST_NAMES, description="by name")
+    types: dict[Name, TypeEntry] = Field(
+        min_length=1, max_length=_MOST_NAMES, description="by name"
+    )
+    objects: dict[Name, ObjectEntry] = Field(
+        min_length=1, max_length=_MOST_NAMES, description="by name"
+    )
+    skills: dict[Name, SkillEntry] = Field(
+        min_length=1, max_length=_MOST_NAMES, description="by name"
+    )
     scenes: dict[Name, list[Name]] = Field(
         default_factory=dict, description="named sets of objects; without any, one with all"
     )
