@@ -124,6 +124,8 @@ def test_a_crash_while_it_is_made_leaves_what_can_be_resumed(
     archive = make_archive(path, SETTINGS, domain)
     assert archive.settings() == SETTINGS
     assert archive.domain() == domain
+    make_archive(path, SETTINGS, domain)
+    assert set(contents(path)) == {"config.yaml", "domain.yaml"}
 
 
 def test_opening(archive: RunArchive, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import os
 from collections.abc import Iterator
@@ -40,6 +41,7 @@ def make_archive(path: Path, settings: RunSettings, domain: Domain) -> RunArchiv
         archive = RunArchive.open(path)
         _check_settings(archive, settings)
         _keep_domain(archive, domain)
+        _clear(path)
         return archive
     if path.exists() and not all(map(is_leftover, path.iterdir())):
         raise RunFolderError(
@@ -111,6 +113,13 @@ def _keep_domain(archive: RunArchive, domain: Domain) -> None:
             f"{archive.path}: the domain '{domain.name}' is not what it was when the run started "
             f"({archive.layout.domain}); choose another --out"
         )
+
+
+def _clear(path: Path) -> None:
+    """Remove what a crash left of writing files."""
+    with contextlib.suppress(OSError):
+        for leftover in filter(is_leftover, path.rglob(".*")):
+            leftover.unlink()
 
 
 def _lock(handle: int, path: Path) -> None:
