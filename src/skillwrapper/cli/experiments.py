@@ -19,16 +19,15 @@ from skillwrapper.cli.setting_options import ConfigOption, SetOption
 from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.benchmark.experiment_files import read_experiment
-from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiment_folder import ERROR, ExperimentFolder
 from skillwrapper.evaluation.benchmark.plots import plot_experiment
 from skillwrapper.evaluation.benchmark.ray_workers import open_ray_workers
 from skillwrapper.evaluation.benchmark.running import (
-    ERROR,
     CellOutcome,
     open_workers,
     run_experiment,
 )
-from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
+from skillwrapper.evaluation.benchmark.summary import ExperimentSummary, summarise
 from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
 from skillwrapper.evaluation.methods.cell import Cell
 
@@ -78,7 +77,7 @@ def run(
         ended = _watch(progress, console, cells, folder)
         outcomes = run_experiment(folder, team, ended=ended)
     failed = [outcome for outcome in outcomes if outcome.error]
-    report = _report(folder)
+    report = summarise(folder)
     if as_json:
         errors = {outcome.cell.name: outcome.error for outcome in failed}
         print_json({"out": str(out), **report.to_json(), "failed": errors})
@@ -97,7 +96,7 @@ def table(
     as_json: JsonFlag = False,
 ) -> None:
     """Print the tables of an experiment, of whatever cells are finished."""
-    report = _report(ExperimentFolder.open(folder))
+    report = summarise(ExperimentFolder.open(folder))
     writers: dict[TableFormat, Callable[[ExperimentSummary], str]] = {
         TableFormat.MARKDOWN: to_markdown,
         TableFormat.LATEX: to_latex,
@@ -140,11 +139,6 @@ def _changes(config: Path | None, assignments: list[str] | None) -> str:
     """The options that change settings, as they were given."""
     given = [f" --config {config}"] if config is not None else []
     return "".join((*given, *(f" --set {shlex.quote(text)}" for text in assignments or ())))
-
-
-def _report(folder: ExperimentFolder) -> ExperimentSummary:
-    cells = tuple(folder.results())
-    return ExperimentSummary.of(folder.experiment(), cells, folder.runs(), folder.published())
 
 
 def _progress(console: Console) -> Progress:

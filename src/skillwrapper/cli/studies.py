@@ -47,7 +47,7 @@ def register(app: typer.Typer) -> None:
 
 
 def perception(
-    target: Annotated[str, typer.Argument(help="A bundled domain, or the folder of a run.")],
+    target: Annotated[str, typer.Argument(help="A domain, or the folder of a run.")],
     model: ModelsOption = None,
     noise: NoiseOption = "none",
     pictures: Annotated[int, typer.Option(min=1, help="Pictures under each condition.")] = 40,

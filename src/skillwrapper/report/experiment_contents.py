@@ -12,7 +12,7 @@ from skillwrapper.evaluation.benchmark.experiments import Experiment
 from skillwrapper.evaluation.benchmark.figures import group_cells
 from skillwrapper.evaluation.benchmark.summary import ExperimentSummary
 from skillwrapper.evaluation.benchmark.tables import Table
-from skillwrapper.evaluation.methods.cell import domain_key
+from skillwrapper.evaluation.methods.cell import domain_key, domain_title
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.problems.problems import Problem
 from skillwrapper.report.charts import LineChart, Series
@@ -46,7 +46,7 @@ class ProblemCases:
     """A problem with everything that went wrong in it.
 
     Attributes:
-        domain: the domain.
+        domain: reference to the domain.
         problem: the problem.
         solved: how many cells solved it.
         tried: how many cells tried it.
@@ -58,6 +58,11 @@ class ProblemCases:
     solved: int
     tried: int
     cases: tuple[Case, ...]
+
+    @property
+    def title(self) -> str:
+        """What the domain is called."""
+        return domain_title(self.domain)
 
 
 @dataclass(frozen=True)
@@ -118,7 +123,9 @@ class ExperimentContents:
             RunFolderError: if a file is damaged.
         """
         experiment, cells = folder.experiment(), tuple(folder.results())
-        report = ExperimentSummary.of(experiment, cells, folder.runs(), folder.published())
+        report = ExperimentSummary.of(
+            experiment, cells, folder.runs(), folder.published(), folder.failures()
+        )
         groups = []
         for (domain, noise), by_method in group_cells(cells).items():
             mine = report.tables_of(domain, noise)

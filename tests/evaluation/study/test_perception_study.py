@@ -96,7 +96,7 @@ def test_unknown_conditions_models_and_domains_are_named() -> None:
         find_conditions(["blurr"])
     with pytest.raises(UnknownNameError, match="unknown domain"):
         subject_of("burgr")
-    with pytest.raises(UnknownNameError), open_studied(StudiedModel("embeded")):
+    with pytest.raises(UnknownNameError), open_studied(StudiedModel("embeded"), "burger"):
         pass
 
 

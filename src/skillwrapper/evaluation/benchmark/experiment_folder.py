@@ -30,6 +30,9 @@ from skillwrapper.files.writing import append_line, is_leftover, write_atomicall
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.runs.provenance import provenance
 
+ERROR = "error.txt"
+"""Why a cell failed, in its folder; gone once it succeeds."""
+
 _EXPERIMENT = "experiment.yaml"
 _RUNS = "runs.jsonl"
 _LOCK = ".lock"
@@ -134,6 +137,16 @@ class ExperimentFolder:
     def is_finished(self, cell: Cell) -> bool:
         """Whether a cell has its result."""
         return (self.cell(cell) / RESULT).is_file()
+
+    def failures(self) -> dict[str, str]:
+        """Why cells failed that are not finished, in one line each, by their names."""
+        cells = (cell for cell in self.experiment().cells if not self.is_finished(cell))
+        files = {cell.name: self.cell(cell) / ERROR for cell in cells}
+        return {
+            name: file.read_text(encoding="utf-8").partition("\n")[0]
+            for name, file in files.items()
+            if file.is_file()
+        }
 
     def results(self) -> Iterator[CellResult]:
         """The results of all finished cells, in the order of the experiment."""

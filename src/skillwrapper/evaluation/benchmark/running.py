@@ -17,15 +17,12 @@ from typing import Protocol
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import InternalError, SkillWrapperError
 from skillwrapper.evaluation.benchmark.cells import run_cell
-from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiment_folder import ERROR, ExperimentFolder
 from skillwrapper.evaluation.exact.exact_states import ExactStates
 from skillwrapper.evaluation.methods.cell import Cell, domain_key
 from skillwrapper.evaluation.methods.method import CellContext
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.files.writing import write_atomically
-
-ERROR = "error.txt"
-"""Why a cell failed, in its folder; gone once it succeeds."""
 
 _RETRIES = 3
 """How often a cell is tried again whose process was killed."""
@@ -111,8 +108,9 @@ def work(path: Path, cell: Cell) -> CellOutcome:
         write_atomically(error_file, f"{error}\n\n{traceback.format_exc()}")
         return CellOutcome(cell, str(error))
     except Exception as error:  # one broken cell must not take the others along
-        write_atomically(error_file, traceback.format_exc())
-        return CellOutcome(cell, f"{type(error).__name__}: {error}")
+        told = f"{type(error).__name__}: {error}"
+        write_atomically(error_file, f"{told}\n\n{traceback.format_exc()}")
+        return CellOutcome(cell, told)
     error_file.unlink(missing_ok=True)
     return CellOutcome(cell)
 

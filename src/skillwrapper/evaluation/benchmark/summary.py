@@ -8,6 +8,7 @@ from typing import Any, Final
 
 from skillwrapper.evaluation.benchmark.cells import CellResult
 from skillwrapper.evaluation.benchmark.comparisons import PairedComparison, compare
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.evaluation.benchmark.experiments import CommandRecord, Experiment
 from skillwrapper.evaluation.benchmark.figures import MethodFigures, group_cells
 from skillwrapper.evaluation.benchmark.tables import Table, group_tables
@@ -35,6 +36,7 @@ class ExperimentSummary:
         comparisons: of every method with the main one.
         commands: the commands that ran the cells.
         published: what others published, by domain.
+        failures: why cells failed, by their names.
     """
 
     experiment: Experiment
@@ -43,6 +45,7 @@ class ExperimentSummary:
     comparisons: tuple[PairedComparison, ...]
     commands: tuple[CommandRecord, ...] = ()
     published: Mapping[str, PublishedResults] = field(default_factory=dict)
+    failures: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
     def of(
@@ -51,6 +54,7 @@ class ExperimentSummary:
         cells: Sequence[CellResult],
         commands: Sequence[CommandRecord] = (),
         published: Mapping[str, PublishedResults] | None = None,
+        failures: Mapping[str, str] | None = None,
     ) -> ExperimentSummary:
         """Put the figures of the finished cells together."""
         methods: list[MethodFigures] = []
@@ -73,6 +77,7 @@ class ExperimentSummary:
             tuple(comparisons),
             tuple(commands),
             published or {},
+            failures or {},
         )
 
     @property
@@ -95,6 +100,7 @@ class ExperimentSummary:
         return (
             *(("Command", command) for command in commands),
             *(("Code", code) for code in codes),
+            *(("Not run", f"{cell}: {reason}") for cell, reason in self.failures.items()),
             ("Seeds", ", ".join(map(str, asked.seeds))),
             ("Model", settings.model.name),
             ("Noise", ", ".join(asked.noise)),
@@ -134,3 +140,18 @@ class ExperimentSummary:
         theirs = [c for c in self.comparisons if (c.domain, c.noise) == (domain, noise)]
         published = self.published.get(domain, PublishedResults())
         return group_tables(domain, noise, mine, theirs, published)
+
+
+def summarise(folder: ExperimentFolder) -> ExperimentSummary:
+    """All figures of the finished cells in a folder.
+
+    Raises:
+        RunFolderError: if a file is damaged.
+    """
+    return ExperimentSummary.of(
+        folder.experiment(),
+        tuple(folder.results()),
+        folder.runs(),
+        folder.published(),
+        folder.failures(),
+    )

@@ -37,6 +37,16 @@ class ExactReader:
         """The reader of a domain; None if it has no scene reader."""
         return cls(Eyesight.for_packages([package])) if package.has("scene_reader") else None
 
+    @classmethod
+    def required(cls, package: DomainPackage, purpose: str) -> ExactReader:
+        """The reader of a domain.
+
+        Raises:
+            ConfigurationError: if it has no scene reader; names the purpose.
+        """
+        package.require("scene_reader", purpose)
+        return cls(Eyesight.for_packages([package]))
+
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
         """Nothing to do: looking costs nothing."""
 

@@ -148,7 +148,7 @@ class _Reader:
 
 
 def _types(domain: Domain, skill: str, unexplained: tuple[Atom, ...]) -> tuple[str, ...]:
-    """The types that a proposer may use, as in a run (DESIGN.md D1)."""
+    """The types that a proposer may use, as in a run (docs/semantics.md, D1)."""
     types = dict.fromkeys(p.type for p in domain.skill_by_name[skill].parameters)
     for atom in unexplained:
         for term in atom.terms:

@@ -135,7 +135,7 @@ def study_invention(
     for model in models:
         for run in range(runs):
             progress(f"{model.label}: run {run + 1}")
-            with open_studied(model, seed=seed, run=run, calls=calls) as assistant:
+            with open_studied(model, domain, seed=seed, run=run, calls=calls) as assistant:
                 answers = [assistant.invent_predicates(pair.question) for pair in pairs]
             for pair, answer in zip(pairs, answers, strict=True):
                 proposed = next(iter(answer.predicates), None)

@@ -70,6 +70,7 @@ class _Repeated(ModelWrapper):
 @contextmanager
 def open_studied(
     model: StudiedModel,
+    domain: str,
     *,
     seed: int = 0,
     run: int = 0,
@@ -80,6 +81,7 @@ def open_studied(
 
     Args:
         model: which one.
+        domain: whose pictures the embedded model is to make out.
         seed: of the embedded model.
         run: number of the run, from 0; the same questions are asked anew in each.
         calls: a store in which calls are kept and found again; None for none.
@@ -89,7 +91,7 @@ def open_studied(
         UnknownNameError: if there is no such model or noise profile.
         RunFolderError: if the store is damaged.
     """
-    made = open_model(model.name, ModelSettings(noise=model.noise), seed + run)
+    made = open_model(model.name, ModelSettings(noise=model.noise), seed + run, domain)
     with ExitStack() as resources:
         if isinstance(made, RecordedModel):
             resources.callback(made.close)
@@ -97,8 +99,3 @@ def open_studied(
             made = StoredModel(made, resources.enter_context(CallStore(calls)))
         repeated = _Repeated(made, run) if run else made
         yield Assistant(ModelSet.of(repeated), None, settings)
-
-
-def truthful_assistant() -> Assistant:
-    """The embedded model without noise: what it reads off clean pictures counts as the truth."""
-    return Assistant(ModelSet.of(open_model(EMBEDDED, ModelSettings(), 0)))

@@ -122,13 +122,13 @@ def study_perception(
         ProviderError: if a model does not answer.
     """
     shown = [condition for condition in conditions if subject.supports(condition)]
-    results, pictures = [], 0
+    results, pictures, domain = [], 0, subject.package.reference
     for condition in shown:
         samples = subject.samples(condition)
         pictures = len(samples)
         for model in models:
             progress(f"{condition.name}: {model.label}")
-            with open_studied(model, seed=seed, calls=calls) as assistant:
+            with open_studied(model, domain, seed=seed, calls=calls) as assistant:
                 scores = _read(subject, samples, assistant)
             results.append(ConditionResult(model, condition, scores))
     left_out = tuple(c.name for c in conditions if c not in shown)

@@ -12,22 +12,21 @@ from typing import Any
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.evaluation.exact.exact_reader import ExactReader
 from skillwrapper.evaluation.published import PublishedFigures, published_figures
 from skillwrapper.evaluation.study.conditions import Condition
-from skillwrapper.evaluation.study.models import truthful_assistant
 from skillwrapper.evaluation.study.scoring import Readings
 from skillwrapper.files.yaml_documents import YamlDocument
-from skillwrapper.perception.questions import EvaluationQuestion
+from skillwrapper.grounding import FALSE, TRUE, AtomSpace
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.symbols import Atom, Predicate, all_groundings
 from skillwrapper.world.capabilities import Enumerable, require
-from skillwrapper.world.domain import Domain
-from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.pictures import load_picture
 from skillwrapper.world.types import Object
 
 _ATOM = re.compile(r"\s*([A-Za-z][\w-]*)\s*(?:\(([^()]*)\))?\s*")
+_READ = {TRUE: True, FALSE: False}
 _LAYOUT = 424_242
 """Seed of the arrangement of clean pictures; no run resets to it or to those that follow."""
 
@@ -49,23 +48,28 @@ class Subject:
     """Something that can be studied.
 
     Args:
-        domain: types, objects and skills.
+        package: the domain.
         predicates: what is read.
+        objects: what is in the pictures.
         origin: where the predicates and their truth come from, for tables.
     """
 
-    published = PublishedFigures()
-    """Figures of others, to stand beside."""
-
-    def __init__(self, domain: Domain, predicates: Sequence[Predicate], origin: str) -> None:
+    def __init__(
+        self,
+        package: DomainPackage,
+        predicates: Sequence[Predicate],
+        objects: Sequence[Object],
+        origin: str,
+    ) -> None:
         if not predicates:
             raise ConfigurationError(f"{origin}: expected predicates to study, got none")
-        self.domain, self.predicates, self.origin = domain, tuple(predicates), origin
+        self.package, self.domain, self.origin = package, package.domain, origin
+        self.predicates, self.objects = tuple(predicates), tuple(objects)
 
     @property
-    def objects(self) -> tuple[Object, ...]:
-        """The objects in the pictures: all of the domain."""
-        return self.domain.objects
+    def published(self) -> PublishedFigures:
+        """Figures of others, to stand beside."""
+        return published_figures(self.package)
 
     def supports(self, condition: Condition) -> bool:
         """Whether pictures can be shown under a condition."""
@@ -80,13 +84,13 @@ class Subject:
 
 
 class SimulatedSubject(Subject):
-    """Pictures of sampled states of a domain that can list them.
+    """Pictures of sampled states of a domain's first scene.
 
     Args:
         package: the domain.
         predicates: what is read.
-        truth: the true atoms of a state, or None: then what the noise-free embedded model reads
-            off the usual drawing in the same arrangement counts as the truth.
+        truth: the true atoms of a state, or None: then what is read without error off the usual
+            drawing in the same arrangement counts as the truth.
         origin: for tables.
         pictures: how many states are sampled.
         seed: of the sample.
@@ -102,10 +106,9 @@ class SimulatedSubject(Subject):
         pictures: int,
         seed: int,
     ) -> None:
-        self._truth, self._package = truth, package
-        self.published = published_figures(package)
-        self._usual = _enumerable(package.make_environment())
-        super().__init__(self._usual.domain, predicates, origin)
+        self._truth = truth
+        self._usual = _enumerable(package)
+        super().__init__(package, predicates, self._usual.scene.objects, origin)
         states = list(self._usual.reachable_states())
         chance = random.Random(f"perception study {seed}")
         self._states = chance.sample(states, min(pictures, len(states)))
@@ -113,14 +116,14 @@ class SimulatedSubject(Subject):
 
     def supports(self, condition: Condition) -> bool:
         """Other arrangements always; another drawing if the domain has one."""
-        return not condition.redrawn or self._package.has("drawings")
+        return not condition.redrawn or self.package.has("drawings")
 
     def samples(self, condition: Condition) -> tuple[Sample, ...]:
         """The sampled states, drawn under a condition."""
         shown = self._usual
         if condition.redrawn:
-            drawing = next(iter(self._package.entries.drawings))
-            shown = _enumerable(self._package.make_environment(drawing))
+            drawing = next(iter(self.package.entries.drawings))
+            shown = _enumerable(self.package, drawing)
         pictures, plain = [], []
         for number, state in enumerate(self._states):
             layout = _LAYOUT + (1 + number + 100_000 * self._seed if condition.layouts else 0)
@@ -132,17 +135,16 @@ class SimulatedSubject(Subject):
     def _truths(self, plain: Sequence[Observation]) -> list[Readings]:
         if self._truth is not None:
             return [self._labels(self._truth(state)) for state in self._states]
-        questions = [
-            EvaluationQuestion(self.domain, self.objects, o, self.predicates) for o in plain
-        ]
-        return [answer.labels for answer in truthful_assistant().evaluate(questions)]
+        space = AtomSpace(self.predicates, self.objects)
+        labels = ExactReader.required(self.package, "a study of a run").labels(space, plain)
+        return [dict(zip(space.atoms, map(_READ.get, row), strict=True)) for row in labels.tolist()]
 
 
 class LabelledSubject(Subject):
     """Pictures of one's own with the atoms that are true in them.
 
     Args:
-        domain: types, objects and skills.
+        package: the domain.
         predicates: what is read.
         file: YAML: the path of every picture, relative to the file, with a list of true atoms;
             atoms that are not listed are false.
@@ -152,8 +154,8 @@ class LabelledSubject(Subject):
         PictureError: if a picture cannot be read.
     """
 
-    def __init__(self, domain: Domain, predicates: Sequence[Predicate], file: Path) -> None:
-        super().__init__(domain, predicates, f"labels of {file}")
+    def __init__(self, package: DomainPackage, predicates: Sequence[Predicate], file: Path) -> None:
+        super().__init__(package, predicates, package.domain.objects, f"labels of {file}")
         document = YamlDocument.read(file)
         if not isinstance(document.data, dict) or not document.data:
             raise ConfigurationError(f"{file}: expected pictures with lists of true atoms")
@@ -198,20 +200,19 @@ def subject_of(
     Raises:
         UserError: if there is no such domain or run, or the labels are not usable.
     """
+    truth: Callable[[Any], set[Atom]] | None = None
     if RunArchive.is_one(Path(target)):
         archive = RunArchive.open(Path(target))
-        learned = archive.latest().model
-        domain, predicates = learned.domain, learned.predicates
-        package, truth = find_domain(archive.settings().domain), None
+        predicates = archive.latest().model.predicates
+        package = find_domain(archive.settings().domain)
         origin = f"learned predicates of {target}, true by the embedded model without noise"
     else:
         package = find_domain(target)
         expert = package.expert
-        domain, predicates = expert.model.domain, expert.model.predicates
-        truth = _set_of(expert.atoms)
+        predicates, truth = expert.model.predicates, _set_of(expert.atoms)
         origin = f"expert's predicates of {target}, true by the simulator"
     if labels is not None:
-        return LabelledSubject(domain, predicates, labels)
+        return LabelledSubject(package, predicates, labels)
     return SimulatedSubject(package, predicates, truth, origin, pictures=pictures, seed=seed)
 
 
@@ -231,5 +232,8 @@ def _set_of(atoms: Callable[[Any], Any]) -> Callable[[Any], set[Atom]]:
     return lambda state: set(atoms(state))
 
 
-def _enumerable(environment: Environment) -> Enumerable:
-    return require(environment, Enumerable, "a study without --labels")
+def _enumerable(package: DomainPackage, drawing: str | None = None) -> Enumerable:
+    """The domain's first scene, in the arrangement of clean pictures."""
+    made = require(package.make_environment(drawing), Enumerable, "a study without --labels")
+    made.reset(seed=_LAYOUT)
+    return made
