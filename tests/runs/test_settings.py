@@ -96,6 +96,7 @@ def test_every_setting_says_what_it_means(one: Setting) -> None:
     """With the unit of every number, and which values there are."""
     assert one.meaning
     assert "<" not in one.expected
+    assert "none from" not in one.expected
     assert one.required or one.name.startswith(("model", "calls")) or one.default is not None
     if "number" in one.expected:
         assert one.unit

@@ -113,7 +113,8 @@ def _expected(annotation: Any, metadata: Sequence[Any] = ()) -> str:
     if origin is Annotated:
         return _expected(arguments[0], metadata)
     if origin in (Union, types.UnionType):
-        return " or ".join(_expected(part, metadata) for part in arguments)
+        bounds = {part: () if part is type(None) else metadata for part in arguments}
+        return " or ".join(_expected(part, bounds[part]) for part in arguments)
     if origin is tuple:
         return f"list of {_expected(arguments[0])}s"
     if origin is dict:
