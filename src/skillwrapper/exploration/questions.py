@@ -14,7 +14,7 @@ from skillwrapper.world.types import Object
 
 @dataclass(frozen=True)
 class ProposalQuestion:
-    """Which skill sequences to try next (paper, Section 3.1; DESIGN.md D16).
+    """Which skill sequences to try next (paper, Section 3.1; docs/semantics.md D16).
 
     Attributes:
         domain: types, objects and skills.

@@ -84,7 +84,7 @@ def entropy(counts: NDArray[np.int64]) -> float:
 
 
 def pareto_set(scores: Sequence[tuple[float, ...]]) -> tuple[int, ...]:
-    """Indices of the candidates that no other one beats; exact ties all stay (DESIGN.md D16).
+    """Indices of candidates that no other one beats; exact ties all stay (docs/semantics.md D16).
 
     One beats another if it is at least as good in every score and better in one.
     """

@@ -1,4 +1,4 @@
-"""Trying plans in an environment, one after the other (DESIGN.md D13)."""
+"""Trying plans in an environment, one after the other (docs/semantics.md D13)."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ class Evaluator:
                 yield _Task(question, atoms[start : start + size], vote)
 
     def _label(self, task: _Task) -> _Labels:
-        """The labels of one task; what stays unanswered is unknown (DESIGN.md D10)."""
+        """The labels of one task; what stays unanswered is unknown (docs/semantics.md D10)."""
         labels: _Labels = {}
         missing, problem = task.atoms, ""
         incomplete = unusable = 0

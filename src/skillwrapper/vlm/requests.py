@@ -42,7 +42,7 @@ def allowed_slots(question: InventionQuestion) -> tuple[Slot, ...]:
     """How often a new predicate may use each allowed type.
 
     For an unexplained change any two of the types will do; for all other kinds the parameters
-    are among the skill's own (DESIGN.md D1), so a type counts as often as the skill has it.
+    are among the skill's own (docs/semantics.md D1), so a type counts as often as the skill has it.
     """
     if question.kind is InconsistencyKind.UNEXPLAINED:
         return tuple(Slot(name, 2) for name in dict.fromkeys(question.types))
