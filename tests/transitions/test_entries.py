@@ -129,7 +129,7 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         "'before': expected true, false, null",
     ),
     "word": ({**DONE, "before": {"held(a)": "yes"}}, "'before': expected true, false, null"),
-    "atom": ({**DONE, "before": ["held(a"]}, "expected an atom like 'holding(robot, patty)', got "),
+    "atom": ({**DONE, "before": ["held(a"]}, "expected an atom like 'holding(robot, cup)', got "),
     "terms": ({**DONE, "before": ["on(a,,b)"]}, "expected an atom like"),
     "twice": ({**DONE, "before": {"held(a)": 1, "held( a)": 0}}, "held(a) is given twice"),
     "predicate": ({**DONE, "before": ["hld(a)"]}, "unknown predicate 'hld'; did you mean 'held'?"),

@@ -74,7 +74,7 @@ def render(
     ] = None,
     skills: Annotated[
         list[str] | None,
-        typer.Option("--do", help="A skill to run first, e.g. 'Pick(robot, patty)'; repeatable."),
+        typer.Option("--do", help="A skill to run first, e.g. 'Pick(robot, cup)'; repeatable."),
     ] = None,
     as_json: JsonFlag = False,
 ) -> None:

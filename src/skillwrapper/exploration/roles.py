@@ -1,7 +1,7 @@
 """What was last done with every object: history as far as it may matter for what works next.
 
-Where no predicate tells two states apart, what was done with the objects may: a cut lettuce was
-the argument of the last successful Cut.
+Where no predicate tells two states apart, what was done with the objects may: an opened box was
+the argument of the last successful Open.
 """
 
 from __future__ import annotations

@@ -267,7 +267,7 @@ class GoalReader:
 
 
 def _begins_names(rest: Sequence[Node]) -> bool:
-    """Whether what follows a name are names that it is said of, as in ``(on patty bun)``."""
+    """Whether what follows a name are names that it is said of, as in ``(on cup shelf)``."""
     return bool(rest) and isinstance(rest[0], Word) and rest[0].lower not in _JOINTS
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from skillwrapper.errors import GoalError
 
-EXAMPLE = "e.g. (and (is_cut lettuce) (not (holding robot patty))), or is_cut(lettuce)"
+EXAMPLE = "e.g. (and (is_open drawer) (not (holding robot cup))), or is_open(drawer)"
 
 _DEEPEST = 100
 _TOKEN = re.compile(r"\n|;[^\n]*|[(),]|[^\s(),;]+")

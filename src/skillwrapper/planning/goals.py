@@ -42,8 +42,8 @@ class Goal:
 def parse_goal(text: str, space: AtomSpace, types: Iterable[str] = ()) -> Goal:
     """Read a goal in PDDL's style or in that of functions.
 
-    ``(and (is_cut lettuce) (not (holding robot patty)))`` and
-    ``is_cut(lettuce), not holding(robot, patty)`` are the same goal. There may be comments,
+    ``(and (is_open drawer) (not (holding robot cup)))`` and
+    ``is_open(drawer), not holding(robot, cup)`` are the same goal. There may be comments,
     ``or``, ``imply``, ``=``, and ``forall`` and ``exists`` over the objects of the scene;
     keywords in any case.
 

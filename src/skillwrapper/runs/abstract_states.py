@@ -20,7 +20,7 @@ _VALUES: Mapping[int, bool | None] = {TRUE: True, FALSE: False}
 class AbstractState(Mapping[str, bool | None]):
     """What is true in a scene: for every ground atom True, False, or None for unknown.
 
-    Atoms are named as they are printed: ``state["holding(robot, patty)"]``.
+    Atoms are named as they are printed: ``state["holding(robot, cup)"]``.
 
     Attributes:
         scene: the objects that are present.

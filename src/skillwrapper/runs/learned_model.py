@@ -142,7 +142,7 @@ class LearnedModel:
         """A goal of a scene.
 
         Args:
-            wanted: a goal; a text such as ``(and (is_cut lettuce))``; a state; or a picture, as
+            wanted: a goal; a text such as ``(and (is_open drawer))``; a state; or a picture, as
                 an observation or the path of an image file.
             scene: as in ``read``.
             positive_only: of a state or a picture take what is true only.
@@ -194,7 +194,7 @@ class LearnedModel:
 
         Args:
             state: where it is run.
-            skill: e.g. ``"Pick(robot, patty)"``.
+            skill: e.g. ``"Pick(robot, cup)"``.
 
         Raises:
             UserError: if there is no such skill instance in the scene.

@@ -41,7 +41,7 @@ def describe_operator(operator: Operator, untested: Collection[Condition] = ()) 
 
 
 def describe_condition(condition: Condition, names: Mapping[str, str]) -> str:
-    """A condition with objects in the place of parameters, e.g. ``not holding(robot, patty)``."""
+    """A condition with objects in the place of parameters, e.g. ``not holding(robot, cup)``."""
     match condition:
         case Literal():
             return str(condition.substitute(names))

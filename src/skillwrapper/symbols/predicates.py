@@ -100,7 +100,7 @@ class Literal:
 
 
 def parse_atom(text: str) -> Atom:
-    """The atom that its ``str`` describes, e.g. ``holding(robot, patty)``; ``dark`` is ``dark()``.
+    """The atom that its ``str`` describes, e.g. ``holding(robot, cup)``; ``dark`` is ``dark()``.
 
     Raises:
         SymbolError: if the text is no name with terms in parentheses.
@@ -109,7 +109,7 @@ def parse_atom(text: str) -> Atom:
     terms = (match[2] or "").split(",") if match else []
     names = tuple(term.strip() for term in terms)
     if match is None or (len(names) > 1 and "" in names):
-        raise SymbolError(f"expected an atom like 'holding(robot, patty)', got '{text}'")
+        raise SymbolError(f"expected an atom like 'holding(robot, cup)', got '{text}'")
     return Atom(match[1], tuple(name for name in names if name))
 
 

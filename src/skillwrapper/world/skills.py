@@ -71,14 +71,14 @@ class SkillInstance:
 
 
 def parse_skill_instance(text: str) -> SkillInstance:
-    """The skill instance that its ``str`` describes, e.g. ``Pick(robot, patty)``.
+    """The skill instance that its ``str`` describes, e.g. ``Pick(robot, cup)``.
 
     Raises:
         ConfigurationError: if the text is no skill with arguments in parentheses.
     """
     match = re.fullmatch(r"\s*([\w-]+)\s*\(([^()]*)\)\s*", text)
     if match is None:
-        raise ConfigurationError(f"expected a skill like 'Pick(robot, patty)', got '{text}'")
+        raise ConfigurationError(f"expected a skill like 'Pick(robot, cup)', got '{text}'")
     arguments = tuple(a.strip() for a in match[2].split(",") if a.strip())
     return SkillInstance(match[1], arguments)
 

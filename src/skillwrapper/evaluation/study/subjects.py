@@ -217,14 +217,14 @@ def subject_of(
 
 
 def parse_atom(text: str, where: str) -> Atom:
-    """An atom as ``holding(robot, patty)``; one without arguments may go without parentheses.
+    """An atom as ``holding(robot, cup)``; one without arguments may go without parentheses.
 
     Raises:
         ConfigurationError: if it is none.
     """
     match = _ATOM.fullmatch(text)
     if match is None:
-        raise ConfigurationError(f"{where}: expected an atom like on(patty, stove), got '{text}'")
+        raise ConfigurationError(f"{where}: expected an atom like on(cup, shelf), got '{text}'")
     return Atom(match[1], tuple(t.strip() for t in (match[2] or "").split(",") if t.strip()))
 
 
