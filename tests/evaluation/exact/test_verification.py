@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from sketched_kitchen import sketched_states
 
@@ -173,7 +172,7 @@ def test_unknown_labels_are_counted_apart() -> None:
     assert found.by_skill["Pick"].recall == 0.0
 
 
-def test_json_and_pictures(tmp_path: Path) -> None:
+def test_json() -> None:
     model = expert_model()
     found = check(replace(model, operators=model.operators[1:]))
     data = json.loads(json.dumps(found.to_json()))
@@ -182,9 +181,6 @@ def test_json_and_pictures(tmp_path: Path) -> None:
     }
     assert {"precision_by_skill", "sound", "complete", "suitable", "counterexamples"} < {*data}
     assert data["counterexamples"][0]["instance"] == "Cook(robot, patty)"
-    written = found.counterexamples[0].save_pictures(tmp_path / "counterexamples")
-    assert [p.name for p in written] == ["complete-before-main.png", "complete-after-main.png"]
-    assert all(p.read_bytes() for p in written)
 
 
 def test_the_layout_is_what_the_reader_gets_to_see() -> None:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from skillwrapper.errors import UnknownNameError
 from skillwrapper.evaluation.methods.learned import LearnedMethod
-from skillwrapper.evaluation.methods.registry import METHODS, method_of
+from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.runs.settings import RunSettings
 
@@ -25,7 +24,7 @@ CHANGES = (
 
 @pytest.mark.parametrize(("name", "changes"), CHANGES)
 def test_what_is_changed(name: str, changes: dict[str, tuple[object, object]]) -> None:
-    method = method_of(name)
+    method = METHODS[name]
     assert isinstance(method, LearnedMethod)
     before, after = WHOLE.model_dump(mode="json"), method.configure(WHOLE).model_dump(mode="json")
     assert _differences(before, after) == changes
@@ -45,5 +44,3 @@ def test_registry() -> None:
     assert [method.name for method in METHODS.values()] == list(METHODS)
     assert len({method.title for method in METHODS.values()}) == len(METHODS) == 10
     assert all(m.source is None or m.source in METHODS for m in METHODS.values())
-    with pytest.raises(UnknownNameError, match="did you mean 'vila'"):
-        method_of("villa")

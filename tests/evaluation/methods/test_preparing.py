@@ -18,7 +18,7 @@ from skillwrapper.evaluation.benchmark.efficiency import efficiency_of
 from skillwrapper.evaluation.exact.exact_states import ExactStates
 from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.method import CellContext, Prepared
-from skillwrapper.evaluation.methods.registry import method_of
+from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.methods.settings import ExperimentSettings
 from skillwrapper.evaluation.problems.problem_files import read_problems
 from skillwrapper.exploration.settings import ExplorationSettings
@@ -38,7 +38,7 @@ def prepared(method: str, folder: Path, source: Path | None = None) -> Iterator[
     context = CellContext(
         cell, SETTINGS, folder, source, BurgerEnvironment(), find_domain("burger"), exact()
     )
-    with method_of(method).prepare(context) as ready:
+    with METHODS[method].prepare(context) as ready:
         yield ready
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import add
-from pathlib import Path
 from typing import Any
 
 from skillwrapper.evaluation.exact.labelled_states import LabelledStates, SceneStates
@@ -15,7 +14,6 @@ from skillwrapper.evaluation.exact.predictions import predict_all
 from skillwrapper.evaluation.exact.tallies import Tally, tally_by_skill
 from skillwrapper.evaluation.exact.verdicts import Refutation, Verdict, Verdicts, judge
 from skillwrapper.evaluation.exact.vocabulary import Vocabulary, vocabulary_of
-from skillwrapper.files.writing import write_atomically
 from skillwrapper.grounding import GroundModel
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.world.observation import Observation
@@ -58,16 +56,6 @@ class Counterexample:
             "before": self.before.key,
             "after": self.after.key,
         }
-
-    def save_pictures(self, folder: Path) -> tuple[Path, ...]:
-        """Write the pictures before and after, as ``<verdict>-before-<camera>.png``, ..."""
-        written = []
-        for moment, observation in (("before", self.before), ("after", self.after)):
-            for picture in observation.pictures:
-                path = folder / f"{self.verdict}-{moment}-{picture.camera}.png"
-                write_atomically(path, picture.png)
-                written.append(path)
-        return tuple(written)
 
 
 @dataclass(frozen=True)

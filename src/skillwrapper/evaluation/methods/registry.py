@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from skillwrapper.errors import UnknownNameError
 from skillwrapper.evaluation.methods.expert import EXPERT, EXPERT_READ
 from skillwrapper.evaluation.methods.fm_invent import FM_INVENT
 from skillwrapper.evaluation.methods.method import Method
@@ -31,14 +30,3 @@ _ALL: tuple[Method, ...] = (
 
 METHODS: Final[Mapping[str, Method]] = MappingProxyType({method.name: method for method in _ALL})
 """The methods in the order of tables."""
-
-
-def method_of(name: str) -> Method:
-    """The method of a name.
-
-    Raises:
-        UnknownNameError: if there is none.
-    """
-    if name not in METHODS:
-        raise UnknownNameError("method", name, METHODS)
-    return METHODS[name]
