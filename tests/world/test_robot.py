@@ -303,3 +303,15 @@ def test_the_documented_classes_work(tmp_path: Path) -> None:
 
     assert check_environment(lambda: RobotEnvironment(Robot(), domain)) == "robot"
     assert check_environment(lambda: names["CupWorld"](domain)) == "simulator"
+
+
+def test_checking_a_robot_asks_for_one_start_only() -> None:
+    """Somebody may have to set the world up by hand."""
+    prepared: list[int] = []
+
+    class Heavy(LampRobot):
+        def prepare(self, seed: int) -> None:
+            prepared.append(seed)
+
+    assert check_environment(lambda: environment(Heavy()), seed=7) == "robot"
+    assert prepared == [7]

@@ -175,7 +175,8 @@ def _check_outcomes(
 ) -> None:
     cameras = [picture.camera for picture in start.pictures]
     constant = examined.environment.domain.failures_change_nothing
-    examined.reset("outcome", seed)
+    if compare:
+        examined.reset("outcome", seed)
     for instance in _random_instances(examined.environment, seed, steps):
         before = examined.snapshot("outcome") if compare else None
         outcome = examined.execute("outcome", instance)
