@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from notebook import Notebook, make_domain
+from notebook import Notebook, make_domain, picture
 
 from skillwrapper.invention.decisions import CandidateDecision, Verdict
+from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.inventor import Inventor
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.vocabulary import Vocabulary
+from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
 
 KITCHEN = make_domain(
@@ -73,11 +77,13 @@ class Study:
         for predicate in dormant:
             self.words.set_dormant(predicate)
         self.decisions: list[CandidateDecision] = []
+        chosen = LearningSettings(**settings)  # type: ignore[arg-type]
+        labeller = Labeller(notebook.recorded, notebook)
         self.inventor = Inventor(
-            notebook.fitter(),
+            Fitter(labeller, FaithfulLearner(chosen)),
             self.words,
             self.proposer,
-            LearningSettings(**settings),  # type: ignore[arg-type]
+            chosen,
             self.decisions.append,
         )
 
@@ -90,9 +96,9 @@ class Study:
         return [p.name for p in self.words.active]
 
 
-def full_hand() -> Notebook:
+def full_hand(*, resets_restore_state: bool = False) -> Notebook:
     """Taking fails as long as something is held."""
-    notebook = Notebook(KITCHEN)
+    notebook = Notebook(replace(KITCHEN, resets_restore_state=resets_restore_state))
     for item, other in (("a", "b"), ("b", "a")) * 2:
         notebook.success(f"empty(r) round({item})", f"Take(r, {item})", f"held({item}) round(a)")
         notebook.failure(f"held({other})", f"Take(r, {item})")
@@ -204,20 +210,80 @@ def test_questions_in_one_iteration_are_bounded() -> None:
 
 
 def test_rejected_candidates_are_told_and_not_tried_again() -> None:
-    study = Study(full_hand(), [SHINY], [SHINY, EMPTY])
+    study = Study(full_hand(), [SHINY], [], [SHINY, EMPTY])
     study.inventor.invent()
-    assert study.proposer.asked[0][2] == ()
-    assert study.proposer.asked[1][2] == ("shiny",)
+    assert [(str(q[0].kind), q[2]) for q in study.proposer.asked] == [
+        ("precondition", ()),
+        ("effect", ()),
+        ("precondition", ("shiny",)),
+    ]
     assert study.verdicts(Verdict.REJECTED) == ["shiny"]
 
 
-def test_rejections_lapse_when_the_vocabulary_changes() -> None:
+def test_what_is_rejected_for_one_cause_is_tried_for_another() -> None:
+    for apart, tried in ((True, 2), (False, 1)):
+        study = Study(full_hand(), [SHINY], [SHINY], [EMPTY], reject_by_cause=apart)
+        study.inventor.invent()
+        assert study.verdicts(Verdict.REJECTED) == ["shiny"] * tried
+
+
+def test_every_further_question_shows_another_pair() -> None:
+    for rotates, partners in ((True, [0, 4, 2]), (False, [0, 0, 0])):
+        study = Study(full_hand(), attempts=3, rotate=rotates)
+        study.inventor.invent()
+        asked = [q[0] for q in study.proposer.asked if q[0].kind == "precondition"]
+        assert [i.first for i in asked] == partners
+        assert len({i.culprit for i in asked}) == 1
+
+
+def test_during_an_episode_only_new_causes_are_asked_for() -> None:
     notebook = full_hand()
-    notebook.success("empty(r) on(a, x)", "Take(r, a)", "held(a) free(x)")
-    study = Study(notebook, [ROUND, ON], [EMPTY], [FREE], [ON], attempts=5)
-    study.inventor.invent()
-    assert "empty" in study.active
-    assert study.words.rejected == () or "round" not in [p.name for p in study.words.rejected]
+    study = Study(notebook, attempts=1)
+    study.inventor.keep_up()
+    asked = len(study.proposer.asked)
+    assert asked == 2
+    study.inventor.keep_up()
+    notebook.failure("held(b) round(b)", "Take(r, a)")
+    study.inventor.keep_up()
+    assert len(study.proposer.asked) == asked
+    notebook.success("", "Wave(r)", "#1")
+    notebook.failure("#2", "Wave(r)")
+    study.inventor.keep_up()
+    assert {q[0].skill for q in study.proposer.asked[asked:]} == {"Wave"}
+
+
+def test_nothing_is_asked_during_an_episode_if_so_set() -> None:
+    study = Study(full_hand(), new_causes=False)
+    study.inventor.keep_up()
+    assert study.proposer.asked == []
+
+
+def test_what_reads_differently_at_starts_is_taken_back() -> None:
+    notebook = full_hand(resets_restore_state=True)
+    study = Study(notebook, active=[EMPTY, ROUND], dormant=[SHINY])
+    scene = notebook.domain.scene()
+    study.inventor.note_start(scene, picture("empty(r) round(a) shiny(a)"))
+    study.inventor.note_start(scene, picture("empty(r) round(b) shiny(b)"))
+    assert (study.active, study.words.dormant) == (["empty"], ())
+    assert study.verdicts(Verdict.RETRACTED) == ["round"]
+
+
+def test_starts_of_which_nothing_is_declared_may_differ() -> None:
+    notebook = full_hand()
+    study = Study(notebook, active=[EMPTY, ROUND])
+    for start in ("round(a)", "round(b)"):
+        study.inventor.note_start(notebook.domain.scene(), picture(start))
+    assert study.active == ["empty", "round"]
+
+
+def test_a_better_vocabulary_of_an_earlier_iteration_is_taken_up_again() -> None:
+    for keeps, active in ((True, ["empty", "held"]), (False, ["held"])):
+        study = Study(full_hand(), active=[EMPTY, HELD], keep_best=keeps)
+        study.inventor.invent()
+        study.words.set_dormant(EMPTY)
+        study.words.drop([EMPTY])
+        study.inventor.invent()
+        assert study.active == active
 
 
 def test_dormant_predicates_are_tried_before_the_model_is_asked() -> None:
@@ -311,7 +377,7 @@ def test_what_takes_much_more_than_it_explains_is_not_kept() -> None:
         for number, after in enumerate(("", "near(a, x)", "near(a, y)", "near(a, x) near(a, y)")):
             notebook.success(f"empty(r) near(a, x) #{number}", "Take(r, a)", f"held(a) {after}")
         notebook.failure("", "Take(r, a)")
-        study = Study(notebook, [NEAR], better, active=[HELD], attempts=2)
+        study = Study(notebook, [NEAR], better, active=[HELD], attempts=2, operator_cost=2)
         fit = study.inventor.invent()
         assert study.active == kept
         assert bool(distinct_causes(fit.inconsistencies)) == (not better)

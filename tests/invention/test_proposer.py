@@ -6,6 +6,7 @@ import pytest
 
 from skillwrapper.invention.proposer import ModelProposer
 from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
+from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Atom, Predicate
@@ -67,7 +68,9 @@ def ask(
     second = None if kind is InconsistencyKind.UNEXPLAINED else 1
     one = Inconsistency(kind, "Swap", 0, second, 0, ("Swap", kind, (), ()), unexplained)
     adviser = Adviser()
-    found = ModelProposer(recorded, adviser, 4).propose(one, [KNOWN], [BAD], attempt=2)
+    found = ModelProposer(recorded, adviser, LearningSettings(candidates=4)).propose(
+        one, [KNOWN], [BAD], attempt=2
+    )
     assert found == (NEW,)
     return adviser.questions[0], transitions
 

@@ -1,6 +1,8 @@
-"""The vocabulary: clashes of names, widened types, and the memory of rejections (D3, D8, D9)."""
+"""The vocabulary: clashes of names, widened types, what is set aside (D3, D8, D9)."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
@@ -32,13 +34,12 @@ def test_a_new_predicate_is_fresh() -> None:
 
 def test_known_ones_are_not() -> None:
     words = vocabulary(HELD)
-    words.reject(CLEAN_CUP)
     asleep = Predicate("asleep", ("robot",))
     words.accept(asleep)
     words.set_dormant(asleep)
-    words.reject(CLEAN_CUP)
-    assert words.fresh([HELD, CLEAN_CUP, asleep]) == ()
-    assert words.fresh([Predicate("clean", ("cup",), "The thing is  clean.")]) == ()
+    rejected = [CLEAN_CUP]
+    assert words.fresh([HELD, CLEAN_CUP, asleep], rejected) == ()
+    assert words.fresh([Predicate("clean", ("cup",), "The thing is  clean.")], rejected) == ()
 
 
 def test_another_meaning_is_another_predicate() -> None:
@@ -46,8 +47,7 @@ def test_another_meaning_is_another_predicate() -> None:
     ajar = Predicate("open", ("cup",), "a gap can be seen")
     wide = Predicate("open", ("cup",), "fully open")
     words = vocabulary()
-    words.reject(wide)
-    assert words.fresh([wide, ajar]) == (ajar,)
+    assert words.fresh([wide, ajar], rejected=[wide]) == (ajar,)
     words.accept(wide)
     words.set_dormant(wide)
     (renamed,) = words.fresh([ajar])
@@ -121,22 +121,32 @@ def test_a_candidate_replaces_one_of_its_name() -> None:
     assert vocabulary(CLEAN_CUP, HELD).with_candidate(wider) == (HELD, wider)
 
 
-def test_rejections_lapse_when_the_vocabulary_changes() -> None:
+def test_one_of_the_same_meaning_under_another_name_is_widened() -> None:
+    known = Predicate("on_shelf", ("cup", "robot"), "the cup is above the robot")
+    words = vocabulary(known)
+    same = Predicate("over", ("item", "robot"), "The item is above the robot.")
+    assert words.fresh([same]) == (replace(known, types=("item", "robot")),)
+    assert words.fresh([replace(same, types=("cup", "robot"), semantics=known.semantics)]) == ()
+
+
+def test_what_is_rejected_is_not_fresh() -> None:
     words = vocabulary(HELD)
-    words.reject(CLEAN_CUP)
-    words.reject(CLEAN_CUP)
-    assert words.rejected == (CLEAN_CUP,)
-    words.accept(Predicate("new", ()))
-    assert words.rejected == ()
-    words.reject(CLEAN_CUP)
-    words.set_dormant(HELD)
-    assert words.rejected == ()
-    assert words.dormant == (HELD,)
+    assert words.fresh([CLEAN_CUP]) == (CLEAN_CUP,)
+    assert words.fresh([CLEAN_CUP], rejected=[CLEAN_CUP]) == ()
 
 
-def test_retracted_ones_are_all_that_is_rejected() -> None:
+def test_what_is_dropped_is_forgotten() -> None:
     other, kept = Predicate("other", ()), Predicate("kept", ())
     words = vocabulary(HELD, kept, other)
-    words.reject(CLEAN_CUP)
-    words.retract([HELD, other])
-    assert (words.active, words.dormant, words.rejected) == ((kept,), (), (HELD, other))
+    words.set_dormant(other)
+    words.drop([HELD, other])
+    assert (words.active, words.dormant) == ((kept,), ())
+
+
+def test_an_earlier_vocabulary_is_taken_up_again() -> None:
+    other, kept = Predicate("other", ()), Predicate("kept", ())
+    words = vocabulary(HELD, kept)
+    words.set_dormant(HELD)
+    words.accept(other)
+    words.use([HELD, kept])
+    assert (words.active, words.dormant) == ((HELD, kept), (other,))

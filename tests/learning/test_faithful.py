@@ -7,7 +7,7 @@ from notebook import Notebook, make_domain
 
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.learning import faithful
-from skillwrapper.learning.fitting import OPERATOR_COST
+from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.symbols import Predicate
 
 KITCHEN = make_domain(
@@ -112,10 +112,11 @@ def test_only_the_labels_of_the_skills_pictures_count() -> None:
 
 def test_cost_counts_operators_and_wrong_transitions() -> None:
     notebook = some_data()
-    assert notebook.fit(EMPTY, HELD).cost == 2 * OPERATOR_COST
+    price = LearnerSettings().operator_cost
+    assert notebook.fit(EMPTY, HELD).cost == 2 * price
     notebook.failure("empty(r) #2", "Take(r, b)")
     notebook.failure("empty(r) #3", "Take(r, b)")
-    assert notebook.fit(EMPTY, HELD).cost == 2 * OPERATOR_COST + 2
+    assert notebook.fit(EMPTY, HELD).cost == 2 * price + 2
 
 
 def test_skills_are_learned_as_far_as_somebody_looks(learned: list[str]) -> None:

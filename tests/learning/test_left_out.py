@@ -7,7 +7,7 @@ from notebook import Notebook, make_domain
 
 from skillwrapper.learning.certification import certify
 from skillwrapper.learning.faithful import FaithfulLearner
-from skillwrapper.learning.fitting import OPERATOR_COST, Fit
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.symbols import Predicate
 
@@ -57,7 +57,7 @@ def test_what_is_left_out_is_listed_and_counts() -> None:
         2,
         "no applicable operator makes the change",
     )
-    assert without.cost == with_it.cost == 2 * OPERATOR_COST
+    assert without.cost == with_it.cost == 2 * LearnerSettings().operator_cost
     assert without.hard_cost == with_it.hard_cost
 
 

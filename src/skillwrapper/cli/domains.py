@@ -130,6 +130,7 @@ def _describe(domain: Domain, scenes: Sequence[Scene]) -> dict[str, Any]:
         },
         "scenes": {scene.name: list(scene.names) for scene in scenes},
         "failures_change_nothing": domain.failures_change_nothing,
+        "resets_restore_state": domain.resets_restore_state,
         "skill_instances": len(instances),
     }
 

@@ -10,6 +10,8 @@ from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.questions import BatchInventionQuestion, InventionAnswer
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import Fit
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 
 
 class BatchAdviser(Protocol):
@@ -57,6 +59,13 @@ class BatchInventor:
             self._asked = True
             self._ask()
         return self._fitter.fit(self._vocabulary.active)
+
+    def keep_up(self) -> Fit:
+        """The vocabulary's fit; during an episode nothing is invented."""
+        return self._fitter.fit(self._vocabulary.active)
+
+    def note_start(self, scene: Scene, start: Observation) -> None:
+        """Nothing is compared between starts."""
 
     def _ask(self) -> None:
         recorded = self._fitter.recorded

@@ -4,20 +4,24 @@ predicate, keep it if it helps."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.pruning import find_burdens
+from skillwrapper.invention.rejections import Rejections
+from skillwrapper.invention.screening import UNSTEADY, Screen
 from skillwrapper.invention.settings import LearningSettings
+from skillwrapper.invention.steadiness import Steadiness
 from skillwrapper.invention.trials import Trial
 from skillwrapper.invention.vocabulary import Vocabulary
-from skillwrapper.invention.witnesses import Witnesses
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Predicate
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 
 _ORDER = list(InconsistencyKind)
 _BURDEN = "it takes more operators than it explains transitions"
@@ -61,31 +65,91 @@ class Inventor:
         self._vocabulary = vocabulary
         self._proposer = proposer
         self._settings = settings
+        domain, labeller = fitter.recorded.domain, fitter.labeller
+        steady = settings.steady and domain.resets_restore_state
+        self._steadiness = Steadiness(labeller.truth, settings.steady_tolerance) if steady else None
+        self._screen = Screen(labeller, self._steadiness, settings)
+        self._rejections = Rejections(by_cause=settings.reject_by_cause)
         self._executions: dict[str, int] = {}
         self._attempts: Counter[Identity] = Counter()
         self._questions: Counter[Identity] = Counter()
         self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
+        self._open: frozenset[Identity] = frozenset()
+        self._rounds_left = settings.max_inventions
+        self._best: tuple[Predicate, ...] = ()
+
+    def note_start(self, scene: Scene, start: Observation) -> None:
+        """Take note of what a reset shows; what is not steady over starts is taken back."""
+        if self._steadiness is None or not self._steadiness.note(scene, start):
+            return
+        active = self._vocabulary.active
+        unsteady = self._steadiness.unsteady((*active, *self._vocabulary.dormant))
+        self._rejections.ban(unsteady)
+        self._vocabulary.drop(unsteady)
+        for predicate in (p for p in active if p in unsteady):
+            self._listener(CandidateDecision(Verdict.RETRACTED, predicate, UNSTEADY))
+            self._open = frozenset()
+
+    def keep_up(self) -> Fit:
+        """Invent during an episode, if a cause appears that was not there before."""
+        fit = self._fitter.fit(self._vocabulary.active)
+        if not self._settings.new_causes:
+            return fit
+        causes = _identities(fit)
+        if causes - self._open:
+            fit = self._mend()
+            causes = _identities(fit)
+        self._open = causes
+        return fit
 
     def invent(self) -> Fit:
         """Invent until nothing is inconsistent or every inconsistency was tried often enough.
 
+        Ends an iteration: the next one may ask ``max_inventions`` questions again.
+        """
+        self._admit_new_data()
+        fit = self._mend()
+        if self._settings.keep_best:
+            fit = self._keep_best(fit)
+        self._open = _identities(fit)
+        self._rounds_left = self._settings.max_inventions
+        return fit
+
+    def _mend(self) -> Fit:
+        """Resolve one inconsistency after the other.
+
         A predicate that splits the data into more operators than it explains transitions is
         taken back, once in a call, and what it explained is asked for again.
         """
-        self._admit_new_data()
         retracted: set[Predicate] = set()
-        for _ in range(self._settings.max_inventions):
+        while self._rounds_left:
+            self._rounds_left -= 1
             fit = self._fitter.fit(self._vocabulary.active)
             inconsistency = self._next(fit)
             if inconsistency is not None:
                 self._resolve(inconsistency, fit)
                 continue
-            burdens = find_burdens(self._fitter, self._vocabulary, retracted)
+            burdens = find_burdens(
+                self._fitter,
+                self._vocabulary,
+                retracted,
+                keeps_consistent=self._settings.spare_retraction,
+            )
             if not burdens:
                 break
             retracted.update(burdens)
             self._retract(burdens)
         return self._fitter.fit(self._vocabulary.active)
+
+    def _keep_best(self, fit: Fit) -> Fit:
+        """Take the vocabulary of the last iteration up again if it leaves less inconsistent."""
+        if fit.witnesses and set(self._best) != set(self._vocabulary.active):
+            earlier = self._fitter.fit(self._best)
+            if _rank(earlier) < _rank(fit):
+                self._vocabulary.use(self._best)
+                fit = earlier
+        self._best = self._vocabulary.active
+        return fit
 
     def _admit_new_data(self) -> None:
         """What was given up or rejected on fewer data may be tried again.
@@ -100,7 +164,7 @@ class Inventor:
             for identity in [i for i in self._attempts if i[0] in new]:
                 del self._attempts[identity]
             self._postponed.clear()
-            self._vocabulary.forget_rejections()
+            self._rejections.admit_data_of(new)
 
     def _next(self, fit: Fit) -> Inconsistency | None:
         """The cause tried least; conditions 1 and 2 before determinism and unexplained changes."""
@@ -115,7 +179,8 @@ class Inventor:
         )
 
     def _retract(self, predicates: Sequence[Predicate]) -> None:
-        self._vocabulary.retract(predicates)
+        self._vocabulary.drop(predicates)
+        self._rejections.retract(predicates)
         self._attempts.clear()
         for predicate in predicates:
             self._listener(CandidateDecision(Verdict.RETRACTED, predicate, _BURDEN))
@@ -133,10 +198,11 @@ class Inventor:
             return
         number = self._questions[inconsistency.identity]
         self._questions[inconsistency.identity] += 1
-        proposed = self._proposer.propose(
-            inconsistency, fit.predicates, self._vocabulary.rejected, number
-        )
-        fresh = self._vocabulary.fresh(proposed)
+        pairs = inconsistency.pairs if self._settings.rotate else (inconsistency,)
+        rejected = self._rejections.of(inconsistency.identity)
+        shown = pairs[number % len(pairs)]
+        proposed = self._proposer.propose(shown, fit.predicates, rejected, number)
+        fresh = self._vocabulary.fresh(proposed, rejected)
         if self._try(inconsistency, fit, fresh, dormant=False):
             return
         postponed = self._postponed.get(inconsistency.identity, ())
@@ -152,7 +218,7 @@ class Inventor:
         dormant: bool,
     ) -> bool:
         """Keep the best of the candidates that resolve the inconsistency, if it is worth it."""
-        promising = list(self._screen(inconsistency, candidates, dormant=dormant))
+        promising = self._promising(inconsistency, candidates, dormant=dormant)
         self._fitter.labeller.label(promising)  # all pictures for all candidates in one go
         trials = [self._trial(inconsistency, p, dormant=dormant) for p in promising]
         good = [t for t in trials if not t.shortcoming(self._settings.threshold)]
@@ -172,7 +238,8 @@ class Inventor:
         asleep = self._vocabulary.dormant
         trials = [self._trial(inconsistency, p, dormant=p in asleep) for p in postponed]
         resolving = [t for t in trials if not t.remains and not t.undecided]
-        worth = [t for t in resolving if t.is_worth_it(fit, kind, slack=1)]
+        slack = self._settings.operator_cost
+        worth = [t for t in resolving if t.is_worth_it(fit, kind, slack)]
         best = min(worth, key=Trial.rank, default=None)
         if best is not None:
             reason = "the best that came for an inconsistency"
@@ -183,21 +250,24 @@ class Inventor:
         self._vocabulary.accept(trial.predicate)
         self._postponed.clear()
 
-    def _screen(
+    def _promising(
         self, inconsistency: Inconsistency, candidates: Sequence[Predicate], *, dormant: bool
-    ) -> Iterator[Predicate]:
-        """Ask for the witnesses' pictures first: who cannot tell them apart needs no more."""
-        witnesses = Witnesses(self._fitter.labeller, inconsistency)
-        witnesses.look(candidates)
-        reason = "does not tell the two transitions apart"
-        for predicate in candidates:
-            if witnesses.are_told_apart(predicate):
-                yield predicate
+    ) -> list[Predicate]:
+        """The candidates of which nothing speaks against labelling them everywhere."""
+        promising = []
+        for predicate, flaw in self._screen.flaws(inconsistency, candidates):
+            if not flaw:
+                promising.append(predicate)
             elif not dormant:
-                self._vocabulary.reject(predicate)
-                self._listener(
-                    CandidateDecision(Verdict.REJECTED, predicate, reason, inconsistency)
-                )
+                self._reject(predicate, inconsistency, flaw)
+                self._listener(CandidateDecision(Verdict.REJECTED, predicate, flaw, inconsistency))
+        return promising
+
+    def _reject(self, predicate: Predicate, inconsistency: Inconsistency, flaw: str = "") -> None:
+        if flaw == UNSTEADY:
+            self._rejections.ban([predicate])
+        else:
+            self._rejections.reject(predicate, inconsistency.identity)
 
     def _trial(self, inconsistency: Inconsistency, predicate: Predicate, *, dormant: bool) -> Trial:
         before = self._fitter.fit(self._vocabulary.active)
@@ -218,7 +288,7 @@ class Inventor:
         if not reason:
             reason = "another candidate leaves less unexplained" if trial in worth else _BURDEN
         if not trial.dormant:
-            self._vocabulary.reject(trial.predicate)
+            self._reject(trial.predicate, inconsistency)
         self._decide(Verdict.REJECTED, inconsistency, trial, reason)
 
     def _decide(
@@ -231,3 +301,12 @@ class Inventor:
 
 def _acceptance(trial: Trial) -> Verdict:
     return Verdict.REVIVED if trial.dormant else Verdict.ACCEPTED
+
+
+def _identities(fit: Fit) -> frozenset[Identity]:
+    return frozenset(cause.identity for cause in distinct_causes(fit.inconsistencies))
+
+
+def _rank(fit: Fit) -> tuple[int, float]:
+    """Smaller is better: inconsistencies, then what the operators cost beside."""
+    return len(fit.witnesses), fit.cost

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
+from skillwrapper.invention.settings import LearningSettings
+from skillwrapper.invention.shaping import lift, widen
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Predicate
@@ -26,13 +28,15 @@ class ModelProposer:
     Args:
         recorded: where the transitions stand.
         adviser: who is asked.
-        count: how many candidates are wanted at once.
+        settings: how many candidates are wanted at once, and in what form they are judged.
     """
 
-    def __init__(self, recorded: RecordedTransitions, adviser: Adviser, count: int) -> None:
+    def __init__(
+        self, recorded: RecordedTransitions, adviser: Adviser, settings: LearningSettings
+    ) -> None:
         self._recorded = recorded
         self._adviser = adviser
-        self._count = count
+        self._settings = settings
 
     def propose(
         self,
@@ -54,10 +58,18 @@ class ModelProposer:
             unexplained=inconsistency.unexplained,
             current=tuple(current),
             rejected=tuple(rejected),
-            count=self._count,
+            count=self._settings.candidates,
             attempt=attempt,
         )
-        return self._adviser.invent_predicates(question).predicates
+        found = self._adviser.invent_predicates(question).predicates
+        return tuple(dict.fromkeys(shaped for p in found for shaped in self._shaped(p)))
+
+    def _shaped(self, predicate: Predicate) -> Iterator[Predicate]:
+        """The candidate in its most general form (D8); nothing if it hides a constant for good."""
+        domain = self._recorded.domain
+        shaped = lift(predicate, domain) if self._settings.lift else predicate
+        if shaped is not None:
+            yield widen(shaped, domain) if self._settings.widen else shaped
 
     def _types(self, inconsistency: Inconsistency) -> tuple[str, ...]:
         """The skill's types; for an unexplained change also those of its objects (D1)."""

@@ -30,7 +30,11 @@ def prune(fitter: Fitter, vocabulary: Vocabulary) -> tuple[Pruned, ...]:
 
 
 def find_burdens(
-    fitter: Fitter, vocabulary: Vocabulary, spared: Collection[Predicate] = ()
+    fitter: Fitter,
+    vocabulary: Vocabulary,
+    spared: Collection[Predicate] = (),
+    *,
+    keeps_consistent: bool = True,
 ) -> tuple[Predicate, ...]:
     """The predicates without which it takes least to account for the data.
 
@@ -39,17 +43,27 @@ def find_burdens(
     of them hide each other, so predicates are left out one after the other, the cheapest to lose
     first, and the best vocabulary on the way is compared with the present one.
 
+    Args:
+        fitter: learns operators, and holds the data.
+        vocabulary: the predicates.
+        spared: predicates that stay in any case.
+        keeps_consistent: whether no predicate may go whose absence brings a violation (D9).
+
     Returns:
         Nothing if every predicate, save the spared ones, is worth what it takes.
     """
     remaining = list(vocabulary.active)
-    lowest, best = fitter.fit(remaining).cost, tuple(remaining)
+    whole = fitter.fit(remaining)
+    allowed = whole if keeps_consistent else None
+    lowest, best = whole.cost, tuple(remaining)
     while left := [p for p in remaining if p not in spared]:
-        cheapest, cost = left[-1], _cost_without(fitter, remaining, left[-1])
-        for predicate in reversed(left[:-1]):
-            less = _cost_without(fitter, remaining, predicate, cost)
+        cheapest, cost = None, math.inf
+        for predicate in reversed(left):
+            less = _cost_without(fitter, remaining, predicate, cost, allowed)
             if less < cost:
                 cheapest, cost = predicate, less
+        if cheapest is None:
+            break
         remaining.remove(cheapest)
         if cost < lowest:
             lowest, best = cost, tuple(remaining)
@@ -57,14 +71,21 @@ def find_burdens(
 
 
 def _cost_without(
-    fitter: Fitter, predicates: Sequence[Predicate], left_out: Predicate, limit: float = math.inf
-) -> int:
-    """What it takes without a predicate; if that is not below the limit, any such number."""
-    cost = 0
+    fitter: Fitter,
+    predicates: Sequence[Predicate],
+    left_out: Predicate,
+    limit: float,
+    allowed: Fit | None,
+) -> float:
+    """What it takes without a predicate.
+
+    Infinite if that is not below the limit, or if it is inconsistent where ``allowed`` is not.
+    """
+    cost = 0.0
     for fit in fitter.fit([p for p in predicates if p != left_out]).each():
         cost += fit.cost
-        if cost >= limit:
-            break
+        if cost >= limit or (allowed and not fit.witnesses <= allowed.skill(fit.skill).witnesses):
+            return math.inf
     return cost
 
 

@@ -38,6 +38,56 @@ class LearningSettings(LearnerSettings):
         description="upper bound on questions for predicates in one iteration",
         json_schema_extra={"unit": "questions"},
     )
+    lift: bool = Field(
+        default=True,
+        description="whether a candidate that names an object that shares a type with others is "
+        "lifted to a relation before it is judged (D8)",
+    )
+    widen: bool = Field(
+        default=True,
+        description="whether relations are widened to the widest type that a skill takes (D8)",
+    )
+    steady: bool = Field(
+        default=True,
+        description="whether predicates must read the same at every start, where the domain "
+        "declares that resets restore the state",
+    )
+    steady_tolerance: float = Field(
+        default=0.0,
+        ge=0.0,
+        le=0.5,
+        description="at so many of the starts a predicate may read otherwise, by mistake",
+        json_schema_extra={"unit": "share of the starts"},
+    )
+    screen: bool = Field(
+        default=True,
+        description="whether candidates are read on the pictures of the inconsistency first, and "
+        "everywhere only if they tell these apart",
+    )
+    rotate: bool = Field(
+        default=True,
+        description="whether every further question about an inconsistency shows another pair of "
+        "it, and a candidate need tell only one of them apart",
+    )
+    reject_by_cause: bool = Field(
+        default=True,
+        description="whether a candidate that was rejected for one inconsistency is tried for "
+        "others",
+    )
+    new_causes: bool = Field(
+        default=True,
+        description="whether predicates are asked for during an episode too, as soon as a new "
+        "cause of inconsistency appears, if who explores looks at the model",
+    )
+    spare_retraction: bool = Field(
+        default=True,
+        description="whether no predicate is taken back whose absence brings back a violation",
+    )
+    keep_best: bool = Field(
+        default=True,
+        description="whether the vocabulary of an earlier iteration is taken up again if it "
+        "leaves less inconsistent (D9)",
+    )
     prune: bool = Field(
         default=True, description="whether superfluous predicates are set dormant (D9)"
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from skillwrapper.learning.fitting import OPERATOR_COST, Fit
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols import Predicate
@@ -77,18 +77,17 @@ class Trial:
             return f"score {self.score:.2f} is not above {threshold:.2f}"
         return ""
 
-    def is_worth_it(self, before: Fit, kind: InconsistencyKind, slack: int = 0) -> bool:
-        """Whether it explains at least as much as it takes, but for ``slack`` operators.
+    def is_worth_it(self, before: Fit, kind: InconsistencyKind, slack: float = 0.0) -> bool:
+        """Whether it explains at least as much as it takes, but for ``slack`` transitions.
 
         What it leaves of the third and fourth kind counts only if one of these was asked for:
         a good relation often has to wait for its partner (D6).
         """
-        allowed = slack * OPERATOR_COST
         if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT):
-            return self.fit.hard_cost <= before.hard_cost + allowed
-        return self.fit.cost <= before.cost + allowed
+            return self.fit.hard_cost <= before.hard_cost + slack
+        return self.fit.cost <= before.cost + slack
 
-    def rank(self) -> tuple[int, int, int]:
+    def rank(self) -> tuple[float, float, int]:
         """Smaller is better: what is left of conditions 1 and 2 and the operators that it takes,
         what is left of the other kinds, the number of groundings to evaluate."""
         return self.fit.hard_cost, self.fit.cost, self.predicate.arity

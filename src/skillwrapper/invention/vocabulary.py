@@ -1,4 +1,4 @@
-"""The vocabulary: predicates in use, dormant ones, and the memory of rejected candidates."""
+"""The vocabulary: predicates in use, and dormant ones."""
 
 from __future__ import annotations
 
@@ -18,22 +18,26 @@ class Vocabulary:
         active: predicates that take part in learning.
         dormant: predicates set aside; they keep their labels and are tried again before the
             model is asked (D9).
-        rejected: candidates rejected since the vocabulary last changed (D8).
     """
 
     def __init__(self, types: TypeHierarchy, active: Sequence[Predicate] = ()) -> None:
         self._types = types
         self.active: tuple[Predicate, ...] = tuple(active)
         self.dormant: tuple[Predicate, ...] = ()
-        self.rejected: tuple[Predicate, ...] = ()
 
-    def fresh(self, proposed: Iterable[Predicate]) -> tuple[Predicate, ...]:
+    def fresh(
+        self, proposed: Iterable[Predicate], rejected: Iterable[Predicate] = ()
+    ) -> tuple[Predicate, ...]:
         """The proposed predicates that are new.
 
-        One known for another type is widened (docs/semantics.md, D3); one that shares its name
-        with another meaning gets another name.
+        One known for another type is widened (docs/semantics.md, D3), also under another name; one
+        that shares its name with another meaning gets another name.
+
+        Args:
+            proposed: candidates.
+            rejected: what need not be tried.
         """
-        known = {_identity(p) for p in (*self.active, *self.dormant, *self.rejected)}
+        known = {_identity(p) for p in (*self.active, *self.dormant, *rejected)}
         chosen: dict[str, Predicate] = {}
         for predicate in proposed:
             candidate = self._reconcile(predicate)
@@ -46,42 +50,40 @@ class Vocabulary:
         return (*(p for p in self.active if p.name != predicate.name), predicate)
 
     def accept(self, predicate: Predicate) -> None:
-        """Take a candidate or a dormant predicate into use; rejections lapse."""
+        """Take a candidate or a dormant predicate into use."""
         self.active = self.with_candidate(predicate)
         self.dormant = tuple(p for p in self.dormant if p.name != predicate.name)
-        self.rejected = ()
-
-    def reject(self, predicate: Predicate) -> None:
-        """Remember a candidate that did not help."""
-        if predicate not in self.rejected:
-            self.rejected = (*self.rejected, predicate)
-
-    def forget_rejections(self) -> None:
-        """Let all rejections lapse."""
-        self.rejected = ()
 
     def set_dormant(self, predicate: Predicate) -> None:
-        """Take a predicate out of use; rejections lapse."""
+        """Take a predicate out of use."""
         self.active = tuple(p for p in self.active if p != predicate)
         self.dormant = (*self.dormant, predicate)
-        self.rejected = ()
 
-    def retract(self, predicates: Collection[Predicate]) -> None:
-        """Take accepted predicates back: they count as rejected, all other rejections lapse."""
+    def drop(self, predicates: Collection[Predicate]) -> None:
+        """Forget predicates, active or dormant."""
         self.active = tuple(p for p in self.active if p not in predicates)
-        self.rejected = tuple(predicates)
+        self.dormant = tuple(p for p in self.dormant if p not in predicates)
+
+    def use(self, predicates: Sequence[Predicate]) -> None:
+        """Take exactly these into use; what was active is dormant."""
+        names = {p.name for p in predicates}
+        others = (p for p in (*self.active, *self.dormant) if p.name not in names)
+        self.active, self.dormant = tuple(predicates), tuple(dict.fromkeys(others))
 
     def _reconcile(self, predicate: Predicate) -> Predicate:
         """Resolve a clash of names: the known one, a wider one, or else another name."""
         known = {p.name: p for p in (*self.active, *self.dormant)}
-        wider = {
+        for other in (p for p in known.values() if _is_synonym(p, predicate)):
+            if wider := self._widen(other, predicate):
+                return wider
+        wider_by_name = {
             name: self._widen(namesake, predicate)
             for name, namesake in known.items()
             if _mean_the_same(namesake, predicate)
         }
         names = _names(predicate, known.get(predicate.name))
-        name = next(n for n in names if n not in known or wider.get(n) is not None)
-        return wider.get(name) or replace(predicate, name=name)
+        name = next(n for n in names if n not in known or wider_by_name.get(n) is not None)
+        return wider_by_name.get(name) or replace(predicate, name=name)
 
     def _widen(self, known: Predicate, other: Predicate) -> Predicate | None:
         if known.arity != other.arity:
@@ -115,6 +117,12 @@ def _mean_the_same(known: Predicate, other: Predicate) -> bool:
     One that comes without a meaning means what the known one does.
     """
     return not other.semantics or _meaning(known) == _meaning(other)
+
+
+def _is_synonym(known: Predicate, other: Predicate) -> bool:
+    """Whether two predicates of different names have one meaning, in so many words."""
+    same = bool(other.semantics) and _meaning(known) == _meaning(other)
+    return same and known.name != other.name
 
 
 def _identity(predicate: Predicate) -> tuple[str, tuple[str, ...], str]:

@@ -48,7 +48,13 @@ def fit_skill(language: OperatorLanguage, data: SkillData) -> SkillFit:
     if chosen != list(plain):
         name = language.skill.name
         chosen = [predictor.rename(o, f"{name}_{n}") for n, o in enumerate(chosen, start=1)]
-    return SkillFit(language.skill.name, tuple(chosen), predictor.predict(chosen), left_out)
+    return SkillFit(
+        language.skill.name,
+        tuple(chosen),
+        predictor.predict(chosen),
+        left_out,
+        language.settings.operator_cost,
+    )
 
 
 def _is_chance(language: OperatorLanguage, cluster: Cluster) -> bool:

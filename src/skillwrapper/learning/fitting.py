@@ -23,9 +23,6 @@ from skillwrapper.symbols import AbstractModel, Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.skills import Skill
 
-OPERATOR_COST = 2
-"""Transitions that an operator has to account for to be worth having."""
-
 
 @dataclass(frozen=True)
 class SkillFit:
@@ -36,12 +33,14 @@ class SkillFit:
         operators: its operators, one a cluster (or a part of a cluster, D5).
         predictions: what they say of the skill's own transitions.
         left_out: the clusters of which no operator was learned; none of them is accounted for.
+        price: how many transitions an operator has to account for to be worth having.
     """
 
     skill: str
     operators: tuple[LearnedOperator, ...]
     predictions: tuple[TablePrediction, ...]
     left_out: tuple[Cluster, ...] = ()
+    price: float = 0.0
 
     @cached_property
     def witnesses(self) -> frozenset[Witness]:
@@ -58,14 +57,14 @@ class SkillFit:
         return find_mispredictions(self.predictions)
 
     @property
-    def cost(self) -> int:
+    def cost(self) -> float:
         """Its share of the cost of a fit."""
         return self.operator_cost + len(self.witnesses)
 
     @property
-    def operator_cost(self) -> int:
+    def operator_cost(self) -> float:
         """What its operators cost; one that was left out is as dear as one that was learned."""
-        return OPERATOR_COST * (len(self.operators) + len(self.left_out))
+        return self.price * (len(self.operators) + len(self.left_out))
 
     @cached_property
     def undecided(self) -> frozenset[int]:
@@ -136,16 +135,16 @@ class Fit:
         return tuple(o for fit in self.each() for o in fit.operators)
 
     @property
-    def cost(self) -> int:
+    def cost(self) -> float:
         """What it takes to account for the data: operators, and transitions that are wrong.
 
-        An operator counts as much as ``OPERATOR_COST`` transitions: one that is not needed for
-        more is no insight.
+        An operator counts as much as ``learning.operator_cost`` transitions: one that is not
+        needed for more is no insight.
         """
         return sum(fit.cost for fit in self.each())
 
     @property
-    def hard_cost(self) -> int:
+    def hard_cost(self) -> float:
         """The same without the transitions that are wrong by the third and fourth kind."""
         hard = (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
         wrong = sum(kind in hard for kind, _, _ in self.witnesses)

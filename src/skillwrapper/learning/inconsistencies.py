@@ -6,8 +6,9 @@ Conditions 1 and 2 of the paper (Section 3.2), determinism (D5) and unexplained 
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from skillwrapper.grounding import TRUE, UNKNOWN
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -21,6 +22,8 @@ from skillwrapper.world.skills import SkillInstance
 
 Witness = tuple[InconsistencyKind, str, int]
 """Kind, skill and the number of the transition that is wrong; comparable across vocabularies."""
+
+_MOST_PARTNERS = 3
 
 Identity = tuple[str, InconsistencyKind, LiftedState, LiftedChange]
 
@@ -37,6 +40,8 @@ class Inconsistency:
         culprit: number of the transition that is wrong.
         identity: skill, kind and lifted states: equal for pairs of one cause.
         unexplained: for UNEXPLAINED the changed atoms connected to nothing.
+        partners: numbers of the transitions that the culprit can be shown beside, the one that
+            differs least first.
     """
 
     kind: InconsistencyKind
@@ -46,11 +51,23 @@ class Inconsistency:
     culprit: int
     identity: Identity = field(repr=False)
     unexplained: tuple[Atom, ...] = ()
+    partners: tuple[int, ...] = ()
 
     @property
     def witness(self) -> Witness:
         """What is compared when the vocabulary changes."""
         return (self.kind, self.skill, self.culprit)
+
+    @property
+    def pairs(self) -> tuple[Inconsistency, ...]:
+        """The same with each of the partners, itself first."""
+        others = (n for n in self.partners if n not in (self.first, self.second))
+        return (self, *(self._beside(number) for number in others))
+
+    def _beside(self, partner: int) -> Inconsistency:
+        if self.second == self.culprit:
+            return replace(self, first=partner)
+        return replace(self, second=partner)
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +124,7 @@ def distinct_causes(found: Iterable[Inconsistency]) -> tuple[Inconsistency, ...]
 
 
 class _Partners:
-    """Finds the member of a cluster that differs least from a transition (D8)."""
+    """Finds the members of a cluster that differ least from a transition (D8)."""
 
     def __init__(self, predictions: Sequence[TablePrediction]) -> None:
         self._instance: dict[int, SkillInstance] = {}
@@ -116,16 +133,21 @@ class _Partners:
             for number, which in zip(table.ids, table.which, strict=True):
                 self._instance[int(number)] = table.instances[which]
 
-    def nearest(self, members: Iterable[int], to: int) -> int:
+    def nearest(self, members: Iterable[int], to: int) -> tuple[int, ...]:
         own = self._instance[to]
-        return min(members, key=lambda i: (self._instance[i] != own, abs(i - to), i))
+
+        def distance(number: int) -> tuple[bool, int, int]:
+            return self._instance[number] != own, abs(number - to), number
+
+        return tuple(heapq.nsmallest(_MOST_PARTNERS, members, key=distance))
 
 
 def _describe(skill: str, found: Misprediction, partners: _Partners) -> Inconsistency:
     table, culprit = found.prediction.table, found.culprit
     instance = table.instances[table.which[found.row]]
     state = lifted_state(table.space, table.before[found.row], instance)
-    partner = partners.nearest(found.members, culprit) if found.members else None
+    nearest = partners.nearest(found.members, culprit)
+    partner = nearest[0] if nearest else None
     failed = found.kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT)
     return Inconsistency(
         found.kind,
@@ -135,6 +157,7 @@ def _describe(skill: str, found: Misprediction, partners: _Partners) -> Inconsis
         culprit=culprit,
         identity=(skill, found.kind, state, found.change),
         unexplained=found.unexplained,
+        partners=nearest,
     )
 
 

@@ -37,3 +37,9 @@ class LearnerSettings(BaseModel):
         description="labels with less confidence count as unknown (D10, D24)",
         json_schema_extra={"unit": "probability"},
     )
+    operator_cost: float = Field(
+        default=0.5,
+        ge=0.0,
+        description="transitions that an operator has to account for to be worth having",
+        json_schema_extra={"unit": "transitions"},
+    )

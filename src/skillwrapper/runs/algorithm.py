@@ -111,6 +111,7 @@ class LearningAlgorithm:
         self._fitter = Fitter(labeller, make_learner(settings.learning))
         self._vocabulary = Vocabulary(domain.types)
         self._inventor = self._make_inventor(assistant)
+        self._invented: set[Predicate] = set()
         self._convergence = Convergence(self._fitter)
         self._converged = False
         self._iteration = 0
@@ -142,7 +143,7 @@ class LearningAlgorithm:
             return BatchInventor(
                 self._fitter, self._vocabulary, assistant, learning.batch_size, self._decided
             )
-        proposer = ModelProposer(self._recorded, assistant, learning.candidates)
+        proposer = ModelProposer(self._recorded, assistant, learning)
         return Inventor(self._fitter, self._vocabulary, proposer, learning, self._decided)
 
     def _iterate(self) -> None:
@@ -171,6 +172,8 @@ class LearningAlgorithm:
     def _next_skill(self, done: EpisodeSoFar) -> NextSkill:
         """What the explorer chooses to run next, as long as the budget lasts."""
         self._take(done.to_episode())
+        if not done.transitions:
+            self._inventor.note_start(done.scene, done.start)
         left = self._settings.exploration.budget - len(done.transitions)
         if left <= 0:
             return NextSkill(None, "the budget is spent")
@@ -179,7 +182,7 @@ class LearningAlgorithm:
             done.observation,
             tuple(done.transitions),
             left,
-            learn=lambda: self._fitter.fit(self._vocabulary.active),
+            learn=self._inventor.keep_up,
             read=lambda space: self._truth.labels(space, [done.observation])[0],
         )
         chosen = self._explorer.next_skill(situation)
@@ -225,17 +228,16 @@ class LearningAlgorithm:
 
     def _decided(self, decision: CandidateDecision) -> None:
         if self._is_invention(decision):
+            self._invented.add(decision.predicate)
             vocabulary = self._vocabulary.with_candidate(decision.predicate)
             self._readings.count_invention(self._everything(vocabulary))
         self._note(PredicateDecision.of_candidate(decision, self._transitions))
 
     def _is_invention(self, decision: CandidateDecision) -> bool:
-        """Whether a candidate is new; one that is taken in the end after all was counted before."""
-        if decision.inconsistency is None:
-            return False
-        if decision.verdict is Verdict.ACCEPTED:
-            return decision.predicate not in self._vocabulary.rejected
-        return decision.verdict is Verdict.REJECTED
+        """Whether a candidate is judged for the first time."""
+        judged = decision.verdict in (Verdict.ACCEPTED, Verdict.REJECTED)
+        asked_for = decision.inconsistency is not None
+        return judged and asked_for and decision.predicate not in self._invented
 
     def _note(self, decision: PredicateDecision) -> None:
         self._decisions[-1].append(decision)

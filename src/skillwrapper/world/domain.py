@@ -32,6 +32,8 @@ class Domain:
         declared_scenes: those of the file, in its order; empty for one with all objects.
         failures_change_nothing: whether a failed skill is known to leave the state as it
             was (docs/semantics.md D11).
+        resets_restore_state: whether every reset brings the same state of a scene back, if
+            perhaps not the same picture (D8).
     """
 
     name: str
@@ -42,6 +44,7 @@ class Domain:
     skills: tuple[Skill, ...]
     declared_scenes: tuple[Scene, ...] = ()
     failures_change_nothing: bool = False
+    resets_restore_state: bool = False
 
     @cached_property
     def object_by_name(self) -> dict[str, Object]:
@@ -124,6 +127,7 @@ def build_domain(document: YamlDocument) -> Domain:
         skills=_build_skills(document, entries),
         declared_scenes=_build_scenes(document, entries, objects),
         failures_change_nothing=entries.failures_change_nothing,
+        resets_restore_state=entries.resets_restore_state,
     )
 
 
@@ -134,6 +138,7 @@ def domain_to_yaml(domain: Domain) -> str:
         "agent": domain.agent,
         "description": domain.description,
         "failures_change_nothing": domain.failures_change_nothing,
+        "resets_restore_state": domain.resets_restore_state,
         "types": {
             name: {"parents": parents, "description": domain.types.descriptions.get(name, "")}
             for name, parents in domain.types.parents.items()

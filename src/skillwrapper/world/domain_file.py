@@ -80,6 +80,11 @@ class DomainFile(Entry):
     failures_change_nothing: bool = Field(
         False, description="whether a failed skill is known to leave the state as it was"
     )
+    resets_restore_state: bool = Field(
+        False,
+        description="whether every reset brings the same state of a scene back, if perhaps not "
+        "the same picture; then a predicate of the state reads the same at every start",
+    )
     types: dict[Name, TypeEntry] = Field(
         min_length=1, max_length=_MOST_NAMES, description="by name"
     )

@@ -1,0 +1,43 @@
+"""What reads differently at starts that are one state is no predicate of the state."""
+
+from __future__ import annotations
+
+from notebook import Notebook, make_domain, picture
+
+from skillwrapper.invention.steadiness import Steadiness
+from skillwrapper.symbols import Predicate
+
+ROOM = make_domain(types={"cup": ()}, objects={"a": "cup", "b": "cup"}, skills={"Take": "cup"})
+FULL, LEFT = Predicate("full", ("cup",)), Predicate("left", ("cup",))
+
+
+def judged(*starts: str, tolerance: float = 0.0) -> tuple[Predicate, ...]:
+    steadiness = Steadiness(Notebook(ROOM), tolerance)
+    for start in starts:
+        steadiness.note(ROOM.scene(), picture(start))
+    return steadiness.unsteady([FULL, LEFT])
+
+
+def test_one_start_tells_nothing() -> None:
+    assert judged("full(a) left(a)") == ()
+
+
+def test_what_differs_is_unsteady() -> None:
+    assert judged("full(a) left(a)", "full(a) left(b)") == (LEFT,)
+    assert judged("full(a) left(a)", "left(a) full(a) #2") == ()
+
+
+def test_unknown_labels_tell_nothing() -> None:
+    assert judged("full(a) left(a)", "full(a) ?left(a)") == ()
+
+
+def test_so_many_starts_may_be_misread() -> None:
+    starts = ["full(a) left(a)", *(f"full(a) left(b) #{n}" for n in range(4))]
+    assert judged(*starts, tolerance=0.1) == (LEFT,)
+    assert judged(*starts, tolerance=0.2) == ()
+
+
+def test_a_picture_counts_once() -> None:
+    steadiness = Steadiness(Notebook(ROOM))
+    assert steadiness.note(ROOM.scene(), picture("full(a)"))
+    assert not steadiness.note(ROOM.scene(), picture("full(a)"))
