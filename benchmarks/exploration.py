@@ -2,7 +2,8 @@
 
 The burger kitchen with the expert's predicates, read off the true state; episodes of 15. Exact is
 a model with precision, effect accuracy and every skill's recall 1. Run:
-``python -m benchmarks.exploration [planned | random] [SEEDS] [EXECUTIONS]``.
+``python -m benchmarks.exploration [planned | random] [SEEDS] [EXECUTIONS] [FIRST SEED]``; with one
+seed every choice is printed with its reason.
 """
 
 from __future__ import annotations
@@ -125,10 +126,10 @@ def explore(
     return None, seconds
 
 
-def main(name: str = "planned", seeds: int = 6, most: int = 150) -> None:
+def main(name: str = "planned", seeds: int = 6, most: int = 150, first: int = 20) -> None:
     """Print the executions of every seed, and how long choices take."""
     judge, taken, seconds = Judge(), [], []
-    for seed in range(seeds):
+    for seed in range(first, first + seeds):
         settings = ExplorationSettings(explorer=name, budget=LENGTH)
         explorer = make_explorer(DOMAIN, Nobody(), settings, seed)
         executions, own = explore(explorer, most, judge.is_exact, told=seeds == 1)
