@@ -1,0 +1,1 @@
+"""Decoding: the likeliest states behind readings that may be wrong (D24)."""

@@ -1,0 +1,166 @@
+"""Decoding readings: expectation and maximisation over rules, error rates and hidden states."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from skillwrapper.grounding import Labels
+from skillwrapper.perception.decoding.cells import Cells
+from skillwrapper.perception.decoding.chains import Chain
+from skillwrapper.perception.decoding.conditions import Conditions
+from skillwrapper.perception.decoding.messages import Joint, Messages, Transitions
+from skillwrapper.perception.decoding.odds import Floats, to_log_odds
+from skillwrapper.perception.decoding.priors import Priors
+from skillwrapper.perception.decoding.readings import ErrorRates, Readings
+from skillwrapper.perception.decoding.rules import Rules
+from skillwrapper.perception.decoding.successes import idle_roles, needed
+from skillwrapper.symbols import Predicate
+
+_STILL = 0.01
+"""Rounds that change no belief by more have settled."""
+
+
+@dataclass(frozen=True, eq=False)
+class Decoding:
+    """What is believed after decoding, chain by chain.
+
+    Attributes:
+        predicates: the vocabulary.
+        posterior: for every chain the probability (nodes, atoms) that an atom is true.
+        dirt: for every chain the log-odds (nodes,) that something in a picture is misread.
+        rates: how often each predicate is misread.
+        misfit: how little the readings of each predicate fit what is believed, in nats.
+        exception: how often a rule is broken.
+    """
+
+    predicates: tuple[Predicate, ...]
+    posterior: tuple[Floats, ...]
+    dirt: tuple[Floats, ...]
+    rates: Mapping[Predicate, ErrorRates]
+    misfit: Mapping[Predicate, float]
+    exception: float
+
+
+@dataclass
+class _State:
+    """What is believed between two rounds."""
+
+    belief: Floats
+    joint: Joint
+    needed: Floats
+
+
+def decode(
+    chains: Sequence[Chain],
+    predicates: Sequence[Predicate],
+    labels: Sequence[Labels],
+    priors: Priors | None = None,
+    given: Decoding | None = None,
+) -> Decoding:
+    """The likeliest states behind readings.
+
+    Args:
+        chains: which pictures follow each other.
+        predicates: the vocabulary; no two of one name.
+        labels: for every chain what was read (nodes, atoms).
+        priors: what is taken for likely beforehand.
+        given: what is decoded already, of other predicates over the same chains; it is taken as
+            it is.
+    """
+    return _Decoder(chains, predicates, labels, priors or Priors(), given).run()
+
+
+class _Decoder:
+    def __init__(
+        self,
+        chains: Sequence[Chain],
+        predicates: Sequence[Predicate],
+        labels: Sequence[Labels],
+        priors: Priors,
+        given: Decoding | None,
+    ) -> None:
+        self._cells, self._priors, self._given = Cells(chains, predicates), priors, given
+        read = np.concatenate([np.zeros(0, dtype=np.int8), *(x.ravel() for x in labels)])
+        dirt = np.concatenate(given.dirt) if given is not None and given.dirt else None
+        self._readings = Readings(self._cells, read, priors, dirt)
+        context = given.predicates if given is not None else ()
+        self._conditions = Conditions(self._cells, context)
+        self._rules = Rules(self._cells, self._conditions, priors)
+        beliefs = [np.zeros(0), *(p.ravel() for p in given.posterior)] if given else [np.zeros(0)]
+        self._context: Floats = np.concatenate(beliefs)
+        self._messages = Messages(self._cells, to_log_odds(self._context))
+        self._changed = self._context_changes()
+
+    def run(self) -> Decoding:
+        state = self._first_state()
+        self._rules.learn_rates(state.joint)
+        for phase in (self._learn_rates, self._learn_sure_rules, self._learn_rules):
+            for _ in range(self._priors.rounds):
+                last = state.belief
+                self._believe(state)
+                phase(state)
+                if np.abs(state.belief - last).max(initial=0.0) < _STILL:
+                    break
+        self._believe(state)
+        return self._result(state)
+
+    def _first_state(self) -> _State:
+        belief, cells = self._readings.first_belief, self._cells
+        before, after = belief[cells.before], belief[cells.after]
+        x, y = np.stack([1 - before, before], axis=1), np.stack([1 - after, after], axis=1)
+        return _State(belief, Joint(x[:, :, None] * y[:, None, :]), np.zeros(len(belief)))
+
+    def _believe(self, state: _State) -> None:
+        evidence = self._readings.evidence(state.belief)
+        evidence += self._readings.starting() + state.needed
+        transitions: Transitions = self._rules.transitions()
+        state.belief, state.joint = self._messages.settle(
+            evidence, transitions, self._priors.sweeps
+        )
+
+    def _learn_rates(self, state: _State) -> None:
+        self._rules.learn_rates(state.joint)
+
+    def _learn_sure_rules(self, state: _State) -> None:
+        self._choose_rules(state, free=False)
+
+    def _learn_rules(self, state: _State) -> None:
+        self._choose_rules(state, free=True)
+
+    def _choose_rules(self, state: _State, *, free: bool) -> None:
+        self._readings.learn(state.belief)
+        idle = idle_roles(self._cells, state.joint, self._changed)
+        belief = np.concatenate([state.belief, self._context])
+        self._rules.learn(state.joint, belief, idle, free=free)
+        state.needed = needed(self._cells, state.belief, self._readings.base, self._priors)
+
+    def _context_changes(self) -> tuple[Floats, ...]:
+        """For every edge the expected number of changes in what is decoded already."""
+        if self._given is None:
+            return ()
+        found = [np.zeros(0)]
+        for part, posterior in zip(self._cells.parts, self._given.posterior, strict=True):
+            chain = part.chain
+            moves = chain.before != chain.after
+            one, other = posterior[chain.before[moves]], posterior[chain.after[moves]]
+            found.append((np.abs(one - other) > 0.5).sum(axis=1).astype(float))
+        return (np.concatenate(found),)
+
+    def _result(self, state: _State) -> Decoding:
+        cells, predicates = self._cells, self._cells.predicates
+        nodes = np.cumsum([part.chain.nodes for part in cells.parts])[:-1]
+        misfit = self._readings.misfit(state.belief).tolist()
+        return Decoding(
+            predicates,
+            tuple(
+                state.belief[p.variables].reshape(p.chain.nodes, len(p.space.atoms))
+                for p in cells.parts
+            ),
+            tuple(np.split(self._readings.dirt, nodes)),
+            dict(zip(predicates, self._readings.rates(), strict=True)),
+            dict(zip(predicates, misfit, strict=True)),
+            self._rules.exception,
+        )
