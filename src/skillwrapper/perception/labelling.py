@@ -68,7 +68,13 @@ class Labeller:
 
     def values(self, scene: Scene, predicates: Sequence[Predicate]) -> Labels:
         """Labels (observations, atoms) of all observations of a scene."""
-        labels = self._labels(scene, predicates)
+        return self._joined(scene, self._labels(scene, predicates))
+
+    def read(self, scene: Scene, observation: Observation, space: AtomSpace) -> Labels:
+        """Labels (atoms,) of one observation of a scene."""
+        return self.truth.labels(space, [observation])[0]
+
+    def _joined(self, scene: Scene, labels: Sequence[PredicateLabels]) -> Labels:
         shape = (len(self.recorded.observations(scene)), 0)
         return np.hstack([x.values for x in labels]) if labels else np.zeros(shape, dtype=np.int8)
 

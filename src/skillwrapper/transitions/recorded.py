@@ -77,6 +77,10 @@ class RecordedTransitions:
         """The different observations of a scene, in order of time."""
         return tuple(self._observations[scene])
 
+    def number_of(self, scene: Scene, observation: Observation) -> int | None:
+        """The number of an observation among the scene's; None if it is not recorded."""
+        return self._numbers.get(scene, {}).get(observation.key)
+
     def executions(self, scene: Scene) -> Executions:
         """What was run in a scene; its states are the scene's observations."""
         if scene not in self._executions:

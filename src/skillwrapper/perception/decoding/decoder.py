@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from skillwrapper.grounding import Labels
-from skillwrapper.perception.decoding.cells import Cells
+from skillwrapper.perception.decoding.cells import Cells, ChainCells
 from skillwrapper.perception.decoding.chains import Chain
 from skillwrapper.perception.decoding.conditions import Conditions
 from skillwrapper.perception.decoding.messages import Joint, Messages, Transitions
@@ -29,7 +29,8 @@ class Decoding:
 
     Attributes:
         predicates: the vocabulary.
-        posterior: for every chain the probability (nodes, atoms) that an atom is true.
+        posterior: for every chain and predicate the probability (nodes, groundings) that an atom
+            is true.
         dirt: for every chain the log-odds (nodes,) that something in a picture is misread.
         rates: how often each predicate is misread.
         misfit: how little the readings of each predicate fit what is believed, in nats.
@@ -37,11 +38,21 @@ class Decoding:
     """
 
     predicates: tuple[Predicate, ...]
-    posterior: tuple[Floats, ...]
+    posterior: tuple[Mapping[Predicate, Floats], ...]
     dirt: tuple[Floats, ...]
     rates: Mapping[Predicate, ErrorRates]
     misfit: Mapping[Predicate, float]
     exception: float
+
+    def without(self, names: Collection[str]) -> Decoding:
+        """The same without the predicates of some names."""
+        kept = tuple(p for p in self.predicates if p.name not in names)
+        return self if kept == self.predicates else replace(self, predicates=kept)
+
+    def beliefs(self, chain: int) -> Floats:
+        """The probability (nodes, atoms) that each atom of a chain is true."""
+        columns = [self.posterior[chain][p] for p in self.predicates]
+        return np.hstack(columns) if columns else np.zeros((len(self.dirt[chain]), 0))
 
 
 @dataclass
@@ -82,15 +93,15 @@ class _Decoder:
         priors: Priors,
         given: Decoding | None,
     ) -> None:
-        self._cells, self._priors, self._given = Cells(chains, predicates), priors, given
+        self._cells, self._priors = Cells(chains, predicates), priors
         read = np.concatenate([np.zeros(0, dtype=np.int8), *(x.ravel() for x in labels)])
         dirt = np.concatenate(given.dirt) if given is not None and given.dirt else None
         self._readings = Readings(self._cells, read, priors, dirt)
         context = given.predicates if given is not None else ()
         self._conditions = Conditions(self._cells, context)
         self._rules = Rules(self._cells, self._conditions, priors)
-        beliefs = [np.zeros(0), *(p.ravel() for p in given.posterior)] if given else [np.zeros(0)]
-        self._context: Floats = np.concatenate(beliefs)
+        self._known = [given.beliefs(n) for n in range(len(chains))] if given is not None else []
+        self._context: Floats = np.concatenate([np.zeros(0), *(k.ravel() for k in self._known)])
         self._messages = Messages(self._cells, to_log_odds(self._context))
         self._changed = self._context_changes()
 
@@ -139,10 +150,10 @@ class _Decoder:
 
     def _context_changes(self) -> tuple[Floats, ...]:
         """For every edge the expected number of changes in what is decoded already."""
-        if self._given is None:
+        if not self._known:
             return ()
         found = [np.zeros(0)]
-        for part, posterior in zip(self._cells.parts, self._given.posterior, strict=True):
+        for part, posterior in zip(self._cells.parts, self._known, strict=True):
             chain = part.chain
             moves = chain.before != chain.after
             one, other = posterior[chain.before[moves]], posterior[chain.after[moves]]
@@ -155,12 +166,19 @@ class _Decoder:
         misfit = self._readings.misfit(state.belief).tolist()
         return Decoding(
             predicates,
-            tuple(
-                state.belief[p.variables].reshape(p.chain.nodes, len(p.space.atoms))
-                for p in cells.parts
-            ),
+            tuple(dict(_by_predicate(part, state.belief)) for part in cells.parts),
             tuple(np.split(self._readings.dirt, nodes)),
             dict(zip(predicates, self._readings.rates(), strict=True)),
             dict(zip(predicates, misfit, strict=True)),
             self._rules.exception,
         )
+
+
+def _by_predicate(part: ChainCells, belief: Floats) -> Iterator[tuple[Predicate, Floats]]:
+    """The beliefs (nodes, groundings) of every predicate of one chain."""
+    table = belief[part.variables].reshape(part.chain.nodes, len(part.space.atoms))
+    first = 0
+    for predicate in part.space.predicates:
+        last = first + len(part.space.atoms_of[predicate.name])
+        yield predicate, table[:, first:last]
+        first = last
