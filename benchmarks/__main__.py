@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from benchmarks import calls, learning, memory, planning, render
+from benchmarks import calls, decoding, learning, memory, planning, render
 
 
 def main() -> None:
     """Print what each of them measures."""
-    for benchmark in (render, learning, memory, planning, calls):
+    for benchmark in (render, learning, decoding, memory, planning, calls):
         print(f"\n== {benchmark.__name__.rpartition('.')[2]}", flush=True)
         benchmark.main()
 

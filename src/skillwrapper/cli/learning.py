@@ -44,6 +44,8 @@ def learn(
     iterations: Annotated[int | None, option("iterations")] = None,
     budget: Annotated[int | None, option("budget")] = None,
     explore: Annotated[str | None, option("explore")] = None,
+    learner: Annotated[str | None, option("learner")] = None,
+    labels: Annotated[str | None, option("labels")] = None,
     candidates: Annotated[int | None, option("candidates")] = None,
     threshold: Annotated[float | None, option("threshold")] = None,
     model: Annotated[str | None, option("model")] = None,

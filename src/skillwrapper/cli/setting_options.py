@@ -58,6 +58,8 @@ _POPULAR: Mapping[str, str] = MappingProxyType(
         "iterations": "iterations",
         "budget": "exploration.budget",
         "explore": "exploration.explorer",
+        "labels": "perception.labels",
+        "learner": "learning.learner",
         "candidates": "exploration.candidates",
         "threshold": "learning.threshold",
         "model": "model.name",

@@ -8,6 +8,7 @@ from typing import Protocol
 from skillwrapper.errors import UnknownNameError
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.robust import RobustLearner
 from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.labelled import LabelledTransitions
@@ -24,7 +25,10 @@ class Learner(Protocol):
         ...
 
 
-LEARNERS: Mapping[str, Callable[[LearnerSettings], Learner]] = {"faithful": FaithfulLearner}
+LEARNERS: Mapping[str, Callable[[LearnerSettings], Learner]] = {
+    "faithful": FaithfulLearner,
+    "robust": RobustLearner,
+}
 """The learners by their names in ``learning.learner``."""
 
 

@@ -57,7 +57,8 @@ class DecodedLabeller(Labeller):
         number = self.recorded.number_of(scene, observation)
         if number is None:
             return super().read(scene, observation, space)
-        return self.values(scene, space.predicates)[number]
+        labels: Labels = self.values(scene, space.predicates)[number]
+        return labels
 
     @property
     def decoding(self) -> Decoding:

@@ -72,7 +72,8 @@ class Labeller:
 
     def read(self, scene: Scene, observation: Observation, space: AtomSpace) -> Labels:
         """Labels (atoms,) of one observation of a scene."""
-        return self.truth.labels(space, [observation])[0]
+        labels: Labels = self.truth.labels(space, [observation])[0]
+        return labels
 
     def _joined(self, scene: Scene, labels: Sequence[PredicateLabels]) -> Labels:
         shape = (len(self.recorded.observations(scene)), 0)

@@ -27,6 +27,7 @@ from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.certification import certify
 from skillwrapper.learning.inconsistencies import distinct_causes
 from skillwrapper.learning.learner import make_learner
+from skillwrapper.perception.decoded_labelling import DecodedLabeller
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.perception.reading_calls import ReadingCalls
 from skillwrapper.perception.truth_table import LabelProvider, TruthTable
@@ -107,9 +108,9 @@ class LearningAlgorithm:
         self._explorer = make_explorer(domain, assistant, exploration, settings.seed)
         lifted = exploration.pairs == "skills"
         self._pairs = PairCounts(domain.skill_instances, lifted=lifted)
-        labeller = Labeller(self._recorded, self._truth)
-        self._fitter = Fitter(labeller, make_learner(settings.learning))
         self._vocabulary = Vocabulary(domain.types)
+        self._labeller = self._make_labeller()
+        self._fitter = Fitter(self._labeller, make_learner(settings.learning))
         self._inventor = self._make_inventor(assistant)
         self._invented: set[Predicate] = set()
         self._convergence = Convergence(self._fitter)
@@ -136,6 +137,12 @@ class LearningAlgorithm:
     def _is_over(self) -> bool:
         """Whether the run has converged; iterations that are there already stay part of it."""
         return self._converged and self._iteration >= self._earlier.finished
+
+    def _make_labeller(self) -> Labeller:
+        if not self._settings.decodes_labels:
+            return Labeller(self._recorded, self._truth)
+        priors = self._settings.perception.decoding
+        return DecodedLabeller(self._recorded, self._truth, lambda: self._vocabulary.active, priors)
 
     def _make_inventor(self, assistant: Respondent) -> Inventor | BatchInventor:
         learning = self._settings.learning
@@ -183,7 +190,7 @@ class LearningAlgorithm:
             tuple(done.transitions),
             left,
             learn=self._inventor.keep_up,
-            read=lambda space: self._truth.labels(space, [done.observation])[0],
+            read=lambda space: self._labeller.read(done.scene, done.observation, space),
         )
         chosen = self._explorer.next_skill(situation)
         if chosen.sequence is not None:

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.invention.settings import LearningSettings
+from skillwrapper.perception.settings import PerceptionSettings
 from skillwrapper.redaction import SafeUrl
 from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.protocol import Role
@@ -167,6 +168,9 @@ class SharedSettings(BaseModel):
     exploration: ExplorationSettings = Field(
         default_factory=ExplorationSettings, description="how skill sequences are chosen"
     )
+    perception: PerceptionSettings = Field(
+        default_factory=PerceptionSettings, description="what is made of what pictures show"
+    )
     learning: LearningSettings = Field(
         default_factory=LearningSettings, description="how predicates are invented"
     )
@@ -174,6 +178,12 @@ class SharedSettings(BaseModel):
     calls: CallSettings = Field(
         default_factory=CallSettings, description="what may be spent on model calls"
     )
+
+    @property
+    def decodes_labels(self) -> bool:
+        """Whether it is learned from the likeliest states behind what was read (D24)."""
+        chosen = self.perception.labels or ("decoded" if self.learning.learner == "robust" else "")
+        return chosen == "decoded"
 
 
 class RunSettings(SharedSettings, RunIdentity):

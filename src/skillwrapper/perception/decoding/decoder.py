@@ -145,7 +145,7 @@ class _Decoder:
         self._readings.learn(state.belief)
         idle = idle_roles(self._cells, state.joint, self._changed)
         belief = np.concatenate([state.belief, self._context])
-        self._rules.learn(state.joint, belief, idle, free=free)
+        self._rules.learn(state.joint, belief, idle, self._readings.misread, free=free)
         state.needed = needed(self._cells, state.belief, self._readings.base, self._priors)
 
     def _context_changes(self) -> tuple[Floats, ...]:

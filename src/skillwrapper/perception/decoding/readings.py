@@ -53,6 +53,7 @@ class Readings:
         says: whether it was read as true (variables,).
         dirt: log-odds (pictures,) that a picture is dirty, as estimated.
         base: for every predicate the share of its atoms that is true.
+        misread: for every predicate the share of its readings that is wrong.
     """
 
     def __init__(
@@ -68,6 +69,7 @@ class Readings:
         self._dirty: Floats = np.full((2, number), priors.misread / self._share)
         self._all: Floats = np.full((2, number), priors.misread)
         self._seen: Floats = np.zeros((2, number))
+        self.misread: Floats = np.full(number, priors.misread)
         self.dirt: Floats = np.zeros(cells.pictures) if dirt is None else dirt
 
     @property
@@ -119,6 +121,7 @@ class Readings:
             dirty_seen = self._count(of_dirty * weights[side])
             mean = min(_MOST, prior / self._share)
             self._dirty[side] = _rates(dirty_wrong, dirty_seen, mean)
+        self.misread = _rates(self._count(wrong.sum(axis=0)), self._seen.sum(axis=0), prior)
         clean = 1 - of_dirty
         self._clean = rate(
             float((clean * wrong).sum()), float((clean * weights).sum()), _CLEAN * prior

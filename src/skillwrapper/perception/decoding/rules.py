@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,6 +70,7 @@ class Rules:
         self._to_name = math.log(max(2, len(cells.roles)))
         self._limit = priors.misread
         self.exception = priors.misread
+        self._misread: Floats = np.full(len(cells.predicates), priors.misread)
         self.of_role: list[Rule] = []
 
     def transitions(self) -> Transitions:
@@ -86,16 +88,26 @@ class Rules:
         counts = self._counts(joint)
         self.of_role = [self._seldom(n, counts[n]) for n in range(len(counts))]
 
-    def learn(self, joint: Joint, belief: Floats, idle: NDArray[np.bool_], *, free: bool) -> None:
+    def learn(
+        self,
+        joint: Joint,
+        belief: Floats,
+        idle: NDArray[np.bool_],
+        misread: Floats,
+        *,
+        free: bool,
+    ) -> None:
         """Choose the rule of every role.
 
         Args:
             joint: what is believed of the cells.
             belief: the probability (variables,) that an atom is true, context included.
             idle: whether a role (roles,) is of a skill of which nothing else is seen to change.
+            misread: for every predicate the share of readings that is wrong.
             free: whether a role may change at rates of its own.
         """
         counts = self._counts(joint)
+        self._misread = misread
         self.of_role = [
             self._choose(number, counts[number], joint, belief, bool(idle[number]), free)
             for number in range(len(counts))
@@ -124,6 +136,7 @@ class Rules:
     ) -> Rule:
         role, total = self._cells.roles[number], float(counts.sum())
         flips = float(counts[0, 1] + counts[1, 0])
+        cost = partial(self._cost, role, total)
         persist = self._always(RuleKind.PERSIST, flips)
         if role.kind is StepKind.SAME:
             return persist
@@ -131,9 +144,9 @@ class Rules:
         change = named + _WAYS_TO_CHANGE
         stay = math.log(2) + _WAYS_TO_CHANGE if idle else 0.0
         found = [
-            (self._cost(flips, total) + stay, persist),
+            (cost(flips) + stay, persist),
             *(
-                (self._cost(missed, total) + change, self._always(kind, missed))
+                (cost(missed) + change, self._always(kind, missed))
                 for kind, missed in (
                     (RuleKind.SET, float(counts[:, 0].sum())),
                     (RuleKind.CLEAR, float(counts[:, 1].sum())),
@@ -165,8 +178,9 @@ class Rules:
         candidates = self._conditions.candidates(self._cells.roles[number])
         own = self._cells.slices[number]
         total = float(own.stop - own.start)
+        cost = partial(self._cost, self._cells.roles[number], total)
         price = named + math.log(4 * max(1, len(candidates)))
-        if not candidates or self._cost(0.0, total) + price >= most:
+        if not candidates or cost(0.0) + price >= most:
             return []
         variables = self._conditions.variables(number)
         holds = np.where(variables >= 0, belief[variables], 0.0)
@@ -184,12 +198,15 @@ class Rules:
         table[wanted] = value * (1 - self.exception) + (1 - value) * self.exception
         table[1 - wanted] = self.exception, 1 - self.exception
         rule = Rule(RuleKind.IF, table, condition, exceptions)
-        return [(self._cost(exceptions, total) + price, rule)]
+        return [(cost(exceptions) + price, rule)]
 
-    def _cost(self, exceptions: float, total: float) -> float:
-        """The nats that so many exceptions among so many cells take."""
-        rare = self.exception
-        return -exceptions * math.log(rare) - (total - exceptions) * math.log(1 - rare)
+    def _cost(self, role: Role, total: float, exceptions: float) -> float:
+        """The nats that so many exceptions among so many cells take.
+
+        One counts for no more than a misreading of the predicate: else it would be taken for one.
+        """
+        rare = max(self.exception, float(self._misread[role.predicate]))
+        return -exceptions * math.log(rare) - (total - exceptions) * math.log(1 - self.exception)
 
     def _always(self, kind: RuleKind, exceptions: float) -> Rule:
         rare, often = self.exception, 1 - self.exception
