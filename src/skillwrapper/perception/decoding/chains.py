@@ -28,7 +28,8 @@ class StepKind(StrEnum):
     RESET = "reset"
     """From the first start of a scene to another one."""
     SAME = "same"
-    """Two pictures of one state: nothing was changed in between, as domain or robot say."""
+    """Two pictures of one state: nothing was changed in between, or a reset brought it back, as
+    domain or robot say (D8, D11)."""
 
 
 @dataclass(frozen=True)
@@ -92,10 +93,11 @@ def _edges(recorded: RecordedTransitions) -> Iterator[tuple[Scene, tuple[int, in
         step = _step(record, recorded.domain)
         if step is not None:
             yield record.scene, (record.before, record.after, step)
-    starts = _starts(recorded)
-    for scene, start in starts:
+    restores = recorded.domain.resets_restore_state
+    kind = StepKind.SAME if restores else StepKind.RESET
+    for scene, start in _starts(recorded):
         if start != own[scene]:
-            yield scene, (own[scene], start, Step(StepKind.RESET))
+            yield scene, (own[scene], start, Step(kind))
     for one, other in pairwise(recorded.records):
         if _is_next(one, other) and one.after != other.before:
             yield one.scene, (one.after, other.before, Step(StepKind.SAME))
