@@ -14,10 +14,10 @@ class PerceptionSettings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    labels: Literal["raw", "decoded"] | None = Field(
-        default=None,
+    labels: Literal["auto", "raw", "decoded"] = Field(
+        default="auto",
         description="what is learned from: labels as they were read (raw), or the likeliest states "
-        "behind them (decoded); none for what suits the learner",
+        "behind them (decoded); auto for what suits the learner",
     )
     decoding: Priors = Field(
         default_factory=Priors, description="what is believed of readings beforehand (D24)"

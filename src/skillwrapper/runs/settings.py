@@ -182,8 +182,9 @@ class SharedSettings(BaseModel):
     @property
     def decodes_labels(self) -> bool:
         """Whether it is learned from the likeliest states behind what was read (D24)."""
-        chosen = self.perception.labels or ("decoded" if self.learning.learner == "robust" else "")
-        return chosen == "decoded"
+        if self.perception.labels == "auto":
+            return self.learning.learner == "robust"
+        return self.perception.labels == "decoded"
 
 
 class RunSettings(SharedSettings, RunIdentity):

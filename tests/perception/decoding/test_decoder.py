@@ -10,7 +10,7 @@ from misread_kitchen import VOCABULARY, MisreadKitchen, space_of
 from skillwrapper.grounding import UNKNOWN, AtomSpace, Labels
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.perception.decoded_labelling import DecodedLabeller
-from skillwrapper.perception.decoding.chains import chains_of
+from skillwrapper.perception.decoding.chains import Chain, chains_of
 from skillwrapper.perception.decoding.decoder import Decoding, decode
 from skillwrapper.symbols import Predicate
 from skillwrapper.world import Observation
@@ -112,3 +112,12 @@ def test_no_data_and_no_vocabulary_are_no_mistake() -> None:
     chains = chains_of(kitchen.recorded)
     assert decode(chains, (), [np.zeros((chains[0].nodes, 0), dtype=np.int8)]).rates == {}
     assert decode((), VOCABULARY, []).posterior == ()
+
+
+def test_a_single_picture_is_read_as_it_is() -> None:
+    kitchen = MisreadKitchen(15, seed=7)
+    (chain,) = chains_of(kitchen.recorded)
+    none = np.zeros(0, dtype=np.intp)
+    alone = Chain(chain.scene, 1, (), none, none, none)
+    truth = kitchen.truth(space_of(), _seen(kitchen)[:1])
+    assert ((decode([alone], VOCABULARY, [truth]).beliefs(0) > 0.5) == (truth == 1)).all()

@@ -107,6 +107,8 @@ class _Decoder:
 
     def run(self) -> Decoding:
         state = self._first_state()
+        if not self._cells.variables:
+            return self._result(state)
         self._rules.learn_rates(state.joint)
         for phase in (self._learn_rates, self._learn_sure_rules, self._learn_rules):
             for _ in range(self._priors.rounds):

@@ -60,7 +60,9 @@ def idle_roles(cells: Cells, joint: Joint, changed: Sequence[Floats]) -> NDArray
     own = np.array([role.predicate for role in cells.roles], dtype=np.intp)
     which = cells.edge * predicates + own[cells.role]
     size = cells.edges * predicates
-    change = np.minimum(np.bincount(which, joint.change, size), 1.0).reshape(-1, predicates)
+    change = np.minimum(np.bincount(which, joint.change, size), 1.0).reshape(
+        cells.edges, predicates
+    )
     of_edge = np.zeros(cells.edges, dtype=np.intp)
     of_edge[cells.edge] = skill[cells.role]
     runs = np.bincount(of_edge, minlength=len(names))
