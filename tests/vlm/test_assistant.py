@@ -67,6 +67,40 @@ def test_evaluation_has_two_stages_and_only_the_first_sees_the_picture(burger: D
     assert "All of that is so." in model.requests[1].prompt
 
 
+@pytest.mark.parametrize(
+    ("summarise", "roles"),
+    [("when-needed", [Role.EVALUATE]), ("always", [Role.EVALUATE, Role.SUMMARISE])],
+)
+def test_a_judgement_that_is_clear_needs_no_summary(
+    burger: Domain, summarise: str, roles: list[Role]
+) -> None:
+    def clear(request: ModelRequest) -> str:
+        atoms = section(request.prompt, "Statements")
+        return "I see it.\n\n" + "\n".join(f"- {atom} is true." for atom in atoms)
+
+    helper, model = assistant(clear, summarise=summarise)
+    (answer,) = helper.evaluate([evaluation(burger)])
+    assert set(answer.labels.values()) == {True}
+    assert [r.role for r in model.requests] == roles
+
+
+@pytest.mark.parametrize("flaw", ["", "\nBut {} is false, I think.", None])
+def test_a_judgement_with_one_doubt_is_summed_up(burger: Domain, flaw: str | None) -> None:
+    """One statement is left out, or judged both ways."""
+
+    def unclear(request: ModelRequest) -> str:
+        atoms = section(request.prompt, "Statements")
+        said = [f"{atom}: true" for atom in atoms]
+        if request.role is Role.SUMMARISE or flaw is None:
+            return "\n".join(said)
+        return "\n".join(said) + flaw.format(atoms[0]) if flaw else "\n".join(said[1:])
+
+    helper, model = assistant(unclear)
+    (answer,) = helper.evaluate([evaluation(burger)])
+    assert set(answer.labels.values()) == {True}
+    assert len(model.requests) == (1 if flaw is None else 2)
+
+
 def test_every_grounding_and_meaning_is_in_the_first_prompt(burger: Domain) -> None:
     helper, model = assistant(all_true)
     helper.evaluate([evaluation(burger)])

@@ -54,6 +54,7 @@ def learn(
     prompts: PromptsOption = None,
     noise: Annotated[str | None, option("noise")] = None,
     parallel: Annotated[int | None, option("parallel")] = None,
+    summarise: Annotated[str | None, option("summarise")] = None,
     votes: Annotated[int | None, option("votes")] = None,
     margin: Annotated[float | None, option("margin")] = None,
     timeout: Annotated[float | None, option("timeout")] = None,

@@ -67,6 +67,7 @@ _POPULAR: Mapping[str, str] = MappingProxyType(
         "prompts": "model.prompts",
         "noise": "model.noise",
         "parallel": "model.asking.parallel",
+        "summarise": "model.asking.summarise",
         "votes": "model.asking.votes",
         "margin": "model.asking.margin",
         "timeout": "model.endpoint.timeout",

@@ -13,7 +13,7 @@ from skillwrapper.world.types import Object
 
 @dataclass
 class ReadingCalls:
-    """Counts calls of the role ``evaluate``; those of ``summarise`` are as many.
+    """Counts calls of the role ``evaluate``; those of ``summarise`` are as many at most.
 
     Replies that are asked for again are left out, on both sides.
 

@@ -106,11 +106,12 @@ def estimate_run(config: RunSettings) -> Estimate:
     )
     votes = config.model.asking.votes
     readings = (low * votes, high * votes)
+    always = config.model.asking.summarise == "always"
     calls = {
         Role.PROPOSE: (config.iterations, config.iterations),
         Role.INVENT: (1, 1) if config.learning.invention == "batch" else _INVENTIONS,
         Role.EVALUATE: readings,
-        Role.SUMMARISE: readings,
+        Role.SUMMARISE: (low * votes if always else 0, high * votes),
     }
     return Estimate(
         executions, tuple(_of_role(config.model, role, pair) for role, pair in calls.items())

@@ -1,4 +1,4 @@
-"""Two-stage evaluation: a free judgement of a picture, then a summary with one label an atom."""
+"""Evaluation: a free judgement of a picture, then, unless it is clear, a summary of that."""
 
 from __future__ import annotations
 
@@ -91,13 +91,31 @@ class Evaluator:
         if cut_off or free.taken_back or not _speaks_of_scene(free.answer, task.question):
             self._models.take_back(judging)
             return {}, cut_off
+        labels = self._read_directly(free.answer, atoms)
+        if labels:
+            return labels, False
         summing = self._requests.summary(task.question, atoms, free.answer)
         summing = replace(self._again(summing, problem, time), repetition=repetition)
+        labels, cut_off = self._sum_up(summing, atoms, cut_offs)
+        if not labels:
+            self._models.take_back(judging)
+        return labels, cut_off
+
+    def _read_directly(self, judgement: str, atoms: tuple[Atom, ...]) -> Mapping[Atom, bool | None]:
+        """The labels in a free judgement, if it has one clear verdict on every statement."""
+        if self._settings.summarise == "always":
+            return {}
+        said = parse_labels(judgement, atoms)
+        return {} if said.missing else said.labels
+
+    def _sum_up(
+        self, summing: ModelRequest, atoms: tuple[Atom, ...], cut_offs: CutOffs
+    ) -> tuple[Mapping[Atom, bool | None], bool]:
+        """The second stage: the labels that were found, and whether the reply was cut off."""
         summary = self._models.complete(summing)
         cut_off = cut_offs.check(self._models.by_role[summing.role], summing, summary)
         labels = {} if cut_off or summary.taken_back else parse_labels(summary.text, atoms).labels
         if not labels:
-            self._models.take_back(judging)
             self._models.take_back(summing)
         return labels, cut_off
 

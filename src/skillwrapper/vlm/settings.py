@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import BaseModel, ConfigDict, Field
 
 
@@ -21,6 +23,11 @@ class AskingSettings(BaseModel):
         ge=1,
         description="ground atoms judged in one call, at most",
         json_schema_extra={"unit": "ground atoms"},
+    )
+    summarise: Literal["when-needed", "always"] = Field(
+        default="when-needed",
+        description="when-needed asks for a summary of a judgement only if that does not name "
+        "every ground atom with one clear verdict; always is the paper's way",
     )
     reasks: int = Field(
         default=2,

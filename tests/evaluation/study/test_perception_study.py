@@ -156,5 +156,4 @@ def test_kept_calls_are_not_made_again(label_file: Path, tmp_path: Path) -> None
     with CallStore(calls, read_only=True) as store:
         assert {total.role: (total.made, total.served) for total in store.totals()} == {
             "evaluate": (1, 1),
-            "summarise": (1, 1),
         }
