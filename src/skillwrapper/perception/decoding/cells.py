@@ -92,6 +92,8 @@ class Cells:
         part: for every cell (cells,) its chain.
         step: for every cell (cells,) its step in its chain.
         atom: for every cell (cells,) its atom in its chain.
+        edges: number of edges between different pictures.
+        weight: for every edge (edges,) how much it may count.
     """
 
     def __init__(self, chains: Sequence[Chain], predicates: Sequence[Predicate]) -> None:
@@ -145,7 +147,7 @@ class Cells:
         edges = 0
         for number, part in enumerate(self.parts):
             chain, atoms = part.chain, len(part.space.atoms)
-            moves = np.flatnonzero(chain.before != chain.after)
+            moves = chain.moves
             steps = np.repeat(chain.which[moves], atoms)
             atom = np.tile(np.arange(atoms), len(moves))
             before = part.first + np.repeat(chain.before[moves] * atoms, atoms) + atom
@@ -157,6 +159,7 @@ class Cells:
         role, *rest = (_joined(c) for c in zip(*columns, strict=True)) if columns else [_NONE] * 7
         order = np.argsort(role, kind="stable")
         self.edges, self.role = edges, role[order]
+        self.weight = np.concatenate([np.zeros(0), *(p.chain.weights for p in self.parts)])
         self.before, self.after, self.edge, self.part, self.step, self.atom = (
             column[order] for column in rest
         )

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.perception.decoding.trees import tree_shares
 from skillwrapper.transitions.recorded import RecordedTransition, RecordedTransitions
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.scenes import Scene
@@ -67,6 +69,16 @@ class Chain:
     before: NDArray[np.intp]
     after: NDArray[np.intp]
     which: NDArray[np.intp]
+
+    @cached_property
+    def moves(self) -> NDArray[np.intp]:
+        """The edges between different pictures."""
+        return np.flatnonzero(self.before != self.after)
+
+    @cached_property
+    def weights(self) -> NDArray[np.float64]:
+        """How much each of the moves may count, above 0 and at most 1."""
+        return tree_shares(self.nodes, self.before[self.moves], self.after[self.moves])
 
 
 def chains_of(recorded: RecordedTransitions) -> tuple[Chain, ...]:

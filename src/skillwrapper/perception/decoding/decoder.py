@@ -157,8 +157,8 @@ class _Decoder:
         found = [np.zeros(0)]
         for part, posterior in zip(self._cells.parts, self._known, strict=True):
             chain = part.chain
-            moves = chain.before != chain.after
-            one, other = posterior[chain.before[moves]], posterior[chain.after[moves]]
+            one = posterior[chain.before[chain.moves]]
+            other = posterior[chain.after[chain.moves]]
             found.append((np.abs(one - other) > 0.5).sum(axis=1).astype(float))
         return (np.concatenate(found),)
 

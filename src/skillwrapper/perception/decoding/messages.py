@@ -1,4 +1,4 @@
-"""Loopy belief propagation: what the pictures along a chain tell of each other.
+"""Tree-reweighted belief propagation: what the pictures along a chain tell of each other.
 
 Three messages a cell, as log-odds: forward to the variable after, backward to the variable before,
 and to the variable of the condition that the cell's rule hangs on, if it does.
@@ -60,6 +60,7 @@ class Messages:
 
     def __init__(self, cells: Cells, context: Floats) -> None:
         self._cells, self._context = cells, context
+        self._weight = cells.weight[cells.edge]
         size = len(cells.role)
         self._forward, self._backward, self._asked = (np.zeros(size) for _ in range(3))
 
@@ -73,71 +74,81 @@ class Messages:
             transitions: the rules of all cells.
             sweeps: how often messages are passed at most.
         """
-        cells = self._cells
-        hangs = np.flatnonzero(transitions.condition >= 0)
-        self._asked[transitions.condition < 0] = 0.0
-        odds = self._gather(evidence, transitions.condition, hangs)
+        cells, condition = self._cells, transitions.condition
+        hangs = np.flatnonzero(condition >= 0)
+        self._asked[condition < 0] = 0.0
+        factors = self._factors(transitions.table)
+        odds = self._gather(evidence, condition, hangs)
         for _ in range(sweeps):
             before = to_probability(odds[cells.before] - self._backward)
             after = to_probability(odds[cells.after] - self._forward)
-            reach = self._pass(odds, transitions, hangs, before, after)
-            last, odds = odds, self._gather(evidence, transitions.condition, hangs)
+            given = self._ask(odds, condition, hangs, factors, before, after)
+            self._pass(given, before, after)
+            last, odds = odds, self._gather(evidence, condition, hangs)
             if np.abs(to_probability(odds) - to_probability(last)).max(initial=0.0) < _STILL:
                 break
         before = to_probability(odds[cells.before] - self._backward)
         after = to_probability(odds[cells.after] - self._forward)
-        return to_probability(odds), _joint(before, after, *reach)
+        return to_probability(odds), _joint(before, after, given)
 
-    def _pass(
+    def _factors(self, table: Floats) -> Floats:
+        """(cells, condition, before, after), to the power that makes up for the weight."""
+        factors = np.stack([1 - table, table], axis=-1)
+        cyclic = self._weight < 1
+        power = 1 / self._weight[cyclic]
+        factors[cyclic] = factors[cyclic] ** power[:, None, None, None]
+        return factors
+
+    def _ask(
         self,
         odds: Floats,
-        transitions: Transitions,
+        condition: Integers,
         hangs: Integers,
+        factors: Floats,
         before: Floats,
         after: Floats,
-    ) -> tuple[Floats, Floats]:
-        """Pass all messages once; the chance (cells,) of truth after from falsehood, from truth."""
-        table = transitions.table
-        from_false, from_true = table[:, 0, 0].copy(), table[:, 0, 1].copy()
+    ) -> Floats:
+        """Factors (cells, before, after) as far as conditions hold; passes on what they tell."""
+        given = factors[:, 0].copy()
         if len(hangs):
-            asked = transitions.condition[hangs]
-            known = np.concatenate([odds, self._context])[asked]
-            holds = to_probability(known - self._asked[hangs])
-            some = table[hangs]
-            from_false[hangs] += holds * (some[:, 1, 0] - some[:, 0, 0])
-            from_true[hangs] += holds * (some[:, 1, 1] - some[:, 0, 1])
-            chance = some[:, :, 0] + before[hangs, None] * (some[:, :, 1] - some[:, :, 0])
-            likely = 1 - chance + after[hangs, None] * (2 * chance - 1)
-            _blend(self._asked, _log_ratio(likely[:, 1], likely[:, 0]), hangs)
-        chance = from_false + before * (from_true - from_false)
-        _blend(self._forward, _log_ratio(chance, 1 - chance))
-        likely_true = 1 - from_true + after * (2 * from_true - 1)
-        likely_false = 1 - from_false + after * (2 * from_false - 1)
-        _blend(self._backward, _log_ratio(likely_true, likely_false))
-        return from_false, from_true
+            known = np.concatenate([odds, self._context])[condition[hangs]]
+            holds = to_probability(known - self._asked[hangs])[:, None, None]
+            some = factors[hangs]
+            given[hangs] = (1 - holds) * some[:, 0] + holds * some[:, 1]
+            x, y = _pair(before[hangs]), _pair(after[hangs])
+            likely = np.einsum("nx,ncxy,ny->nc", x, some, y)
+            self._asked[hangs] = _blended(self._asked[hangs], likely)
+        return given
+
+    def _pass(self, given: Floats, before: Floats, after: Floats) -> None:
+        """Pass messages forward and backward."""
+        down = given[:, 0] + before[:, None] * (given[:, 1] - given[:, 0])
+        up = given[:, :, 0] + after[:, None] * (given[:, :, 1] - given[:, :, 0])
+        self._forward = _blended(self._forward, down)
+        self._backward = _blended(self._backward, up)
 
     def _gather(self, evidence: Floats, condition: Integers, hangs: Integers) -> Floats:
-        cells, size = self._cells, len(evidence)
-        odds = evidence + np.bincount(cells.after, self._forward, size)
-        odds += np.bincount(cells.before, self._backward, size)
+        cells, size, weight = self._cells, len(evidence), self._weight
+        odds = evidence + np.bincount(cells.after, weight * self._forward, size)
+        odds += np.bincount(cells.before, weight * self._backward, size)
         own = hangs[condition[hangs] < size]
-        odds += np.bincount(condition[own], self._asked[own], size)
+        odds += np.bincount(condition[own], weight[own] * self._asked[own], size)
         return odds
 
 
-def _blend(messages: Floats, fresh: Floats, where: Integers | slice = slice(None)) -> None:
-    messages[where] = _DAMPING * messages[where] + (1 - _DAMPING) * fresh
+def _blended(messages: Floats, weights: Floats) -> Floats:
+    """Messages (n,) moved towards those that weights (n, 2) of falsehood and truth give."""
+    tiny = np.exp(-_LONGEST) * weights.sum(axis=1)
+    fresh = np.log((weights[:, 1] + tiny) / (weights[:, 0] + tiny))
+    blended: Floats = _DAMPING * messages + (1 - _DAMPING) * fresh
+    return blended
 
 
-def _log_ratio(one: Floats, other: Floats) -> Floats:
-    tiny = np.exp(-_LONGEST)
-    ratio: Floats = np.log((one + tiny) / (other + tiny))
-    return ratio
+def _pair(probability: Floats) -> Floats:
+    """(n, 2) for falsehood and truth."""
+    return np.stack([1 - probability, probability], axis=1)
 
 
-def _joint(before: Floats, after: Floats, from_false: Floats, from_true: Floats) -> Joint:
-    x = np.stack([1 - before, before], axis=1)[:, :, None]
-    y = np.stack([1 - after, after], axis=1)[:, None, :]
-    true = np.stack([from_false, from_true], axis=1)
-    joint = x * y * np.stack([1 - true, true], axis=2)
-    return Joint(joint / (joint.sum(axis=(1, 2), keepdims=True) + 1e-12))
+def _joint(before: Floats, after: Floats, given: Floats) -> Joint:
+    joint = _pair(before)[:, :, None] * given * _pair(after)[:, None, :]
+    return Joint(joint / (joint.sum(axis=(1, 2), keepdims=True) + 1e-300))
