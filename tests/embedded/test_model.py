@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 from seen_kitchen import EXPERT, LEXICON, embedded_model, kitchen
@@ -180,6 +181,28 @@ def test_an_unexplained_change_leads_to_a_relation() -> None:
                 assert predicate.types == ("pickupable", "pickupable")
                 found[CONCEPT_BY_NAME[predicate.name].idea] += 1
     assert found.most_common(1)[0][0] == "on"
+
+
+@pytest.mark.parametrize("skill", ["Pick", "Place", "Stack", "Cut", "Cook"])
+def test_what_one_execution_has_changed(skill: str) -> None:
+    """D26"""
+    done = kitchen().find(skill, success=True, seed=1)
+    question = invention(InconsistencyKind.UNNOTICED, done, None)
+    answer = assistant().invent_predicates(question)
+    assert answer.predicates
+    for predicate in answer.predicates:
+        domain, seen = kitchen().domain, (done.before, done.after)
+        ask = [EvaluationQuestion(domain, domain.objects, o, (predicate,)) for o in seen]
+        before, after = assistant().evaluate(ask)
+        changed = [a for a, label in before.labels.items() if label is not after.labels[a]]
+        assert any(set(a.terms) <= set(done.instance.arguments) for a in changed), predicate
+
+
+def test_where_nothing_has_changed_it_says_so() -> None:
+    done = kitchen().find("Cook", success=True, seed=1)
+    question = invention(InconsistencyKind.UNNOTICED, replace(done, after=done.before), None)
+    answer = assistant().invent_predicates(question)
+    assert (answer.predicates, answer.unusable) == ((), ())
 
 
 def test_a_whole_vocabulary() -> None:

@@ -164,7 +164,7 @@ def test_the_best_of_several_is_kept() -> None:
 
 def test_attempts_are_bounded() -> None:
     """D8: until there are new data; asking again next time would not end."""
-    study = Study(full_hand(), attempts=2)
+    study = Study(full_hand(), attempts=2, unnoticed=False)
     fit = study.inventor.invent()
     causes = distinct_causes(fit.inconsistencies)
     assert {c.kind for c in causes} == {InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT}
@@ -177,7 +177,7 @@ def test_attempts_are_bounded() -> None:
 def test_what_was_given_up_is_asked_again_only_if_its_skill_was_run() -> None:
     """Else the model hears the same question about the same pictures in every iteration."""
     notebook = full_hand()
-    study = Study(notebook, attempts=2)
+    study = Study(notebook, attempts=2, unnoticed=False)
     study.inventor.invent()
     asked = len(study.proposer.asked)
     notebook.success("", "Wave(r)", "#1")
@@ -189,7 +189,7 @@ def test_what_was_given_up_is_asked_again_only_if_its_skill_was_run() -> None:
 
 
 def test_the_least_tried_cause_comes_first() -> None:
-    study = Study(full_hand(), attempts=2)
+    study = Study(full_hand(), attempts=2, unnoticed=False)
     study.inventor.invent()
     assert study.proposer.kinds == ["precondition", "effect"] * 2
 
@@ -415,3 +415,57 @@ def test_same_questions_same_answers_same_vocabulary() -> None:
     models = [study.inventor.invent().model for study in found]
     assert models[0] == models[1]
     assert found[0].decisions == found[1].decisions
+
+
+def silent_wave() -> Notebook:
+    """Nothing that has a name changes when the robot waves, though its hand is up afterwards."""
+    notebook = Notebook(KITCHEN)
+    notebook.success("round(a)", "Wave(r)", "round(a) empty(r)")
+    notebook.success("round(a) #2", "Wave(r)", "round(a) empty(r) #2")
+    return notebook
+
+
+def test_an_unnoticed_change_is_asked_for_when_an_iteration_ends() -> None:
+    """D26"""
+    study = Study(silent_wave(), [SHINY], [EMPTY], active=[ROUND])
+    study.inventor.keep_up()
+    assert study.proposer.asked == []
+    fit = study.inventor.invent()
+    assert study.proposer.kinds == ["unnoticed"] * 2
+    assert study.active == ["round", "empty"]
+    assert fit.unnoticed == ()
+    assert fit.skill("Wave").operators[0].operator.add_effects
+
+
+def test_nothing_settles_it() -> None:
+    notebook = silent_wave()
+    study = Study(notebook, active=[ROUND])
+    study.inventor.invent()
+    notebook.success("round(a) #3", "Wave(r)", "round(a) empty(r) #3")
+    study.inventor.invent()
+    assert study.proposer.kinds == ["unnoticed"]
+
+
+def test_questions_about_unnoticed_changes_are_bounded_for_each_skill() -> None:
+    notebook = silent_wave()
+    study = Study(notebook, *([SHINY] for _ in range(9)), active=[ROUND], attempts=2)
+    for number in range(3):
+        study.inventor.invent()
+        notebook.success(f"round(a) #{number}", "Wave(r)", f"round(a) empty(r) #{number}")
+    assert study.proposer.kinds == ["unnoticed"] * 2
+    assert {q[0].first for q in study.proposer.asked} == {0, 1}
+
+
+def test_unnoticed_changes_are_not_asked_for_if_so_set() -> None:
+    study = Study(silent_wave(), [EMPTY], active=[ROUND], unnoticed=False)
+    study.inventor.invent()
+    assert study.proposer.asked == []
+
+
+def test_what_the_robot_says_changed_nothing_is_no_question() -> None:
+    """D7"""
+    notebook = Notebook(KITCHEN)
+    notebook.success("round(a)", "Wave(r)", "round(a) empty(r)", changed=False)
+    study = Study(notebook, [EMPTY], active=[ROUND])
+    study.inventor.invent()
+    assert study.proposer.asked == []

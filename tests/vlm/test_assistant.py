@@ -306,7 +306,7 @@ def test_giving_up_after_a_bounded_number_of_unusable_replies(burger: Domain) ->
 def invention(domain: Domain, kind: InconsistencyKind) -> InventionQuestion:
     first = Transition(picture("before 1"), PICK, True, picture("after 1"))
     second = Transition(picture("before 2"), PICK, False, picture("after 2"))
-    alone = kind is InconsistencyKind.UNEXPLAINED
+    alone = kind in (InconsistencyKind.UNEXPLAINED, InconsistencyKind.UNNOTICED)
     return InventionQuestion(
         domain=domain,
         skill=domain.skill_by_name["Pick"],
@@ -442,3 +442,28 @@ def test_models_that_keep_replies_are_told_which_were_of_no_use(burger: Domain) 
     helper.evaluate([evaluation(burger)])
 
     assert [(r.role, r.repetition) for r in model.requests] == [(Role.PROPOSE, 1)]
+
+
+@pytest.mark.parametrize(
+    ("reply", "calls"),
+    [
+        ("The patty looks the same.\n\nNothing", 1),
+        ("**Nothing.**", 1),
+        ("Nothing that I could name, sorry", 2),
+    ],
+)
+def test_nothing_is_an_answer_where_a_skill_may_change_nothing(
+    burger: Domain, reply: str, calls: int
+) -> None:
+    """D26"""
+    helper, model = assistant(lambda _: reply, unusable_reasks=1)
+    found = helper.invent_predicates(invention(burger, InconsistencyKind.UNNOTICED))
+    assert found.predicates == ()
+    assert len(model.requests) == calls
+    assert [p.png.decode() for p in model.requests[0].pictures] == ["before 1", "after 1"]
+
+
+def test_nothing_is_no_answer_where_something_must_differ(burger: Domain) -> None:
+    helper, model = assistant(lambda _: "Nothing", unusable_reasks=1)
+    helper.invent_predicates(invention(burger, InconsistencyKind.EFFECT))
+    assert len(model.requests) == 2

@@ -67,6 +67,11 @@ class Comparison:
             changed = _changed(concept, success, places)
             yield Idea(concept, types, changed and not _changed(concept, failure, places))
 
+    def of_one_change(self, views: Views) -> Iterator[Idea]:
+        """Concepts of the arguments, telling if they change."""
+        for concept, types, places in self._choices(views):
+            yield Idea(concept, types, _changed(concept, views, places))
+
     def of_relations(self, views: Views, others: Iterable[str]) -> Iterator[Idea]:
         """Relations between an argument and one of the others, telling if they change."""
         if views.after is None:

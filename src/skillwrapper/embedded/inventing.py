@@ -42,6 +42,9 @@ def _compare(prompt: PromptText, sights: Sights, comparison: Comparison) -> Iter
         for view in seen[:1]:
             new = [name for name in dict.fromkeys(others) if name not in view.arguments]
             yield from comparison.of_relations(view, new)
+    elif _asks_for_one_change(prompt):
+        for view in seen:
+            yield from (idea for idea in comparison.of_one_change(view) if idea.telling)
     elif len(seen) == 2:
         first, second = seen
         if first.after is None:
@@ -50,6 +53,11 @@ def _compare(prompt: PromptText, sights: Sights, comparison: Comparison) -> Iter
             yield from comparison.of_changes(first, second)
         else:
             yield from comparison.of_changes(second, first)
+
+
+def _asks_for_one_change(prompt: PromptText) -> bool:
+    """Whether one execution is shown, and the question is what it has changed."""
+    return len(prompt.executions) == 1 and "Unexplained changes" not in prompt
 
 
 def _views(prompt: PromptText, sights: Sights, number: int) -> Views | None:
@@ -114,6 +122,8 @@ def _reply(prompt: PromptText, writer: _Writer, ideas: Sequence[Idea], chance: C
         chosen.append(chance.pick_weighted(telling, _weights(telling)))
         telling = [idea for idea in telling if not _alike(idea, chosen[-1])]
     lines = [writer.write(idea, chance) for idea in chosen]
+    if not lines and _asks_for_one_change(prompt):
+        return "I compared what can be seen of the arguments before and after.\n\nNothing"
     if not lines:
         return "The pictures look alike to me; I find nothing new that could be named."
     return "\n".join([chance.pick(_OPENINGS), "", *lines])

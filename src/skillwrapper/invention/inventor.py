@@ -108,15 +108,15 @@ class Inventor:
         Ends an iteration: the next one may ask ``max_inventions`` questions again.
         """
         self._admit_new_data()
-        fit = self._mend()
+        fit = self._mend(ends=self._settings.unnoticed)
         if self._settings.keep_best:
             fit = self._keep_best(fit)
         self._open = _identities(fit)
         self._rounds_left = self._settings.max_inventions
         return fit
 
-    def _mend(self) -> Fit:
-        """Resolve one inconsistency after the other.
+    def _mend(self, *, ends: bool = False) -> Fit:
+        """Resolve one inconsistency after the other; where an episode ends, unnoticed changes too.
 
         A predicate that splits the data into more operators than it explains transitions is
         taken back, once in a call, and what it explained is asked for again.
@@ -125,7 +125,7 @@ class Inventor:
         while self._rounds_left:
             self._rounds_left -= 1
             fit = self._fitter.fit(self._vocabulary.active)
-            inconsistency = self._next(fit)
+            inconsistency = self._next(fit, unnoticed=ends)
             if inconsistency is not None:
                 self._resolve(inconsistency, fit)
                 continue
@@ -162,16 +162,22 @@ class Inventor:
         if new:
             self._executions = executions
             for identity in [i for i in self._attempts if i[0] in new]:
-                del self._attempts[identity]
+                if identity[1] is not InconsistencyKind.UNNOTICED:  # bounded for every skill
+                    del self._attempts[identity]
             self._postponed.clear()
             self._rejections.admit_data_of(new)
 
-    def _next(self, fit: Fit) -> Inconsistency | None:
-        """The cause tried least; conditions 1 and 2 before determinism and unexplained changes."""
+    def _next(self, fit: Fit, *, unnoticed: bool) -> Inconsistency | None:
+        """The cause tried least; conditions 1 and 2 before determinism and unexplained changes.
+
+        Only if nothing else is left, and ``unnoticed`` is asked for, a skill that seems to change
+        nothing.
+        """
         tries = self._settings.attempts
-        left = [
-            c for c in distinct_causes(fit.inconsistencies) if self._attempts[c.identity] < tries
-        ]
+        causes = distinct_causes(fit.inconsistencies)
+        left = [c for c in causes if self._attempts[c.identity] < tries]
+        if not left and unnoticed:
+            left = [c for c in fit.unnoticed if self._attempts[c.identity] < tries]
         return min(
             left,
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),
@@ -202,6 +208,8 @@ class Inventor:
         rejected = self._rejections.of(inconsistency.identity)
         shown = pairs[number % len(pairs)]
         proposed = self._proposer.propose(shown, fit.predicates, rejected, number)
+        if not proposed and inconsistency.kind is InconsistencyKind.UNNOTICED:
+            self._attempts[inconsistency.identity] = self._settings.attempts  # that settles it
         fresh = self._vocabulary.fresh(proposed, rejected)
         if self._try(inconsistency, fit, fresh, dormant=False):
             return
@@ -308,5 +316,5 @@ def _identities(fit: Fit) -> frozenset[Identity]:
 
 
 def _rank(fit: Fit) -> tuple[int, float]:
-    """Smaller is better: inconsistencies, then what the operators cost beside."""
-    return len(fit.witnesses), fit.cost
+    """Smaller is better: inconsistencies and unnoticed changes, then what the operators cost."""
+    return len(fit.witnesses) + len(fit.unnoticed), fit.cost

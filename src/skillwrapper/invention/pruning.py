@@ -12,7 +12,7 @@ import numpy as np
 from skillwrapper.grounding import UNKNOWN
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.vocabulary import Vocabulary
-from skillwrapper.learning.fitting import Fit
+from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.symbols import Predicate
 
 
@@ -84,7 +84,7 @@ def _cost_without(
     cost = 0.0
     for fit in fitter.fit([p for p in predicates if p != left_out]).each():
         cost += fit.cost
-        if cost >= limit or (allowed and not fit.witnesses <= allowed.skill(fit.skill).witnesses):
+        if cost >= limit or (allowed and not _is_as_good(fit, allowed.skill(fit.skill))):
             return math.inf
     return cost
 
@@ -135,9 +135,18 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
         predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
         tried.add(predicate)
         without = fitter.fit([p for p in vocabulary.active if p != predicate])
-        if all(one.witnesses <= fit.skill(one.skill).witnesses for one in without.each()):
+        if all(_is_as_good(one, fit.skill(one.skill)) for one in without.each()):
             vocabulary.set_dormant(predicate)
             pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
+
+
+def _is_as_good(fit: SkillFit, other: SkillFit) -> bool:
+    """Whether what is learned of a skill has no inconsistency that another fit has not.
+
+    Nor leaves all its changes unnoticed, if the other does not (D26).
+    """
+    notices = fit.unnoticed is None or other.unnoticed is not None
+    return fit.witnesses <= other.witnesses and notices
 
 
 def _usage(fit: Fit) -> Counter[str]:

@@ -21,8 +21,9 @@ class InventionQuestion:
         skill: the skill whose transitions are inconsistent.
         kind: the kind of inconsistency.
         first: a witness; for PRECONDITION and EFFECT the successful one, for DETERMINISM the
-            one whose change was mispredicted, for UNEXPLAINED the one with the unexplained change.
-        second: the other witness; None for UNEXPLAINED.
+            one whose change was mispredicted, for UNEXPLAINED the one with the unexplained change,
+            for UNNOTICED a success that seems to change nothing.
+        second: the other witness; None for UNEXPLAINED and UNNOTICED.
         types: the types that parameters of the new predicate may have.
         unexplained: for UNEXPLAINED, the changed atoms connected to nothing.
         current: the present vocabulary.

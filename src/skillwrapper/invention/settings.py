@@ -74,6 +74,11 @@ class LearningSettings(LearnerSettings):
         description="whether a candidate that was rejected for one inconsistency is tried for "
         "others",
     )
+    unnoticed: bool = Field(
+        default=True,
+        description="whether the model is asked what has changed where all successes of a skill "
+        "change nothing in the vocabulary (D26)",
+    )
     new_causes: bool = Field(
         default=True,
         description="whether predicates are asked for during an episode too, as soon as a new "

@@ -51,6 +51,9 @@ class Trial:
             fit: what is learned with it.
         """
         skill = fit.skill(inconsistency.skill)
+        if inconsistency.kind is InconsistencyKind.UNNOTICED:
+            score, remains = skill.score(inconsistency.kind), skill.unnoticed is not None
+            return cls(predicate, dormant, fit, score, remains=remains, undecided=False)
         decides_one = any(
             i.witness not in skill.witnesses and i.culprit not in skill.undecided
             for i in before.skill(inconsistency.skill).inconsistencies
@@ -85,6 +88,8 @@ class Trial:
         """
         if kind in (InconsistencyKind.PRECONDITION, InconsistencyKind.EFFECT):
             return self.fit.hard_cost <= before.hard_cost + slack
+        if kind is InconsistencyKind.UNNOTICED:
+            slack += 1.0  # counts as much as a transition that is wrong
         return self.fit.cost <= before.cost + slack
 
     def rank(self) -> tuple[float, float, int]:

@@ -47,12 +47,19 @@ class Witnesses:
         """Whether a candidate shows a difference, or the unexplained change."""
         first, second = self._inconsistency.first, self._inconsistency.second
         if second is None:
-            things = {term for atom in self._inconsistency.unexplained for term in atom.terms}
-            changed = self._changed(first, predicate)
-            return any(things.intersection(literal.atom.terms) for literal in changed)
+            terms = [literal.atom.terms for literal in self._changed(first, predicate)]
+            things = self._things()
+            return any(things.intersection(own) or not own for own in terms)
         if self._compares_changes:
             return self._lifted_change(first, predicate) != self._lifted_change(second, predicate)
         return self._start(first, predicate) != self._start(second, predicate)
+
+    def _things(self) -> set[str]:
+        """The objects about which something must have changed."""
+        if self._inconsistency.kind is InconsistencyKind.UNNOTICED:
+            number = self._inconsistency.first
+            return set(self._records[number].transition.instance.arguments)
+        return {term for atom in self._inconsistency.unexplained for term in atom.terms}
 
     def _pictures(self, number: int) -> list[Observation]:
         """The pictures that matter: before, and after if changes are compared."""

@@ -15,6 +15,7 @@ from skillwrapper.learning.inconsistencies import (
     count_valid_executability,
     describe_mispredictions,
     find_mispredictions,
+    find_unnoticed,
 )
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.operators import LearnedOperator
@@ -51,6 +52,11 @@ class SkillFit:
     def inconsistencies(self) -> tuple[Inconsistency, ...]:
         """All, in order of kind and time."""
         return describe_mispredictions(self.skill, self.predictions, self._mispredictions)
+
+    @cached_property
+    def unnoticed(self) -> Inconsistency | None:
+        """That no success changes anything in the vocabulary, although it may in truth (D26)."""
+        return find_unnoticed(self.skill, self.predictions)
 
     @cached_property
     def _mispredictions(self) -> tuple[Misprediction, ...]:
@@ -123,6 +129,11 @@ class Fit:
     def inconsistencies(self) -> tuple[Inconsistency, ...]:
         """All inconsistencies of all skills."""
         return tuple(i for fit in self.each() for i in fit.inconsistencies)
+
+    @cached_property
+    def unnoticed(self) -> tuple[Inconsistency, ...]:
+        """The skills of which no success changes anything, which may be as it should be (D26)."""
+        return tuple(fit.unnoticed for fit in self.each() if fit.unnoticed is not None)
 
     @cached_property
     def witnesses(self) -> frozenset[Witness]:

@@ -1,4 +1,4 @@
-"""The four kinds of inconsistency between data and model, each with its witnesses.
+"""The kinds of inconsistency between data and model, each with its witnesses.
 
 Conditions 1 and 2 of the paper (Section 3.2), determinism (D5) and unexplained changes
 (D1). An inconsistency names two transitions; many pairs of one cause count once (D8).
@@ -36,12 +36,12 @@ class Inconsistency:
         kind: which of the four.
         skill: name of the skill.
         first: number of a transition; see ``InventionQuestion.first``.
-        second: number of the other one; None for UNEXPLAINED.
+        second: number of the other one; None for UNEXPLAINED and UNNOTICED.
         culprit: number of the transition that is wrong.
         identity: skill, kind and lifted states: equal for pairs of one cause.
         unexplained: for UNEXPLAINED the changed atoms connected to nothing.
         partners: numbers of the transitions that the culprit can be shown beside, the one that
-            differs least first.
+            differs least first; for UNNOTICED those that can be shown in its place.
     """
 
     kind: InconsistencyKind
@@ -65,6 +65,8 @@ class Inconsistency:
         return (self, *(self._beside(number) for number in others))
 
     def _beside(self, partner: int) -> Inconsistency:
+        if self.second is None:
+            return replace(self, first=partner, culprit=partner)
         if self.second == self.culprit:
             return replace(self, first=partner)
         return replace(self, second=partner)
@@ -113,6 +115,27 @@ def describe_mispredictions(
     """An inconsistency for each transition that is wrong."""
     partners = _Partners(predictions)
     return tuple(_describe(skill, one, partners) for one in found)
+
+
+def find_unnoticed(skill: str, predictions: Sequence[TablePrediction]) -> Inconsistency | None:
+    """That a skill works and no success of it changes any label (D26); None if one does."""
+    tables = [prediction.table for prediction in predictions]
+    if any((t.success & t.change.any(axis=1)).any() for t in tables):
+        return None
+    still = [t.ids[t.success & ~t.hanging & ~t.unchanged] for t in tables]
+    numbers = tuple(sorted(int(number) for ids in still for number in ids))[:_MOST_PARTNERS]
+    if not numbers:
+        return None
+    kind = InconsistencyKind.UNNOTICED
+    return Inconsistency(
+        kind,
+        skill,
+        first=numbers[0],
+        second=None,
+        culprit=numbers[0],
+        identity=(skill, kind, (), ()),
+        partners=numbers,
+    )
 
 
 def distinct_causes(found: Iterable[Inconsistency]) -> tuple[Inconsistency, ...]:

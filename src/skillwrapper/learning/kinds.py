@@ -1,4 +1,4 @@
-"""The four kinds of inconsistency."""
+"""The kinds of inconsistency."""
 
 from __future__ import annotations
 
@@ -12,9 +12,12 @@ class InconsistencyKind(StrEnum):
     EFFECT: a success and a failure made the same change (paper, Condition 2).
     DETERMINISM: an applicable operator predicts another change than was seen (D5).
     UNEXPLAINED: something changed that is connected to no argument (D1).
+    UNNOTICED: all successes of a skill change nothing in the vocabulary (D26). Unlike the others
+        it may be as it should be, so it is no inconsistency until somebody sees a change.
     """
 
     PRECONDITION = "precondition"
     EFFECT = "effect"
     DETERMINISM = "determinism"
     UNEXPLAINED = "unexplained"
+    UNNOTICED = "unnoticed"

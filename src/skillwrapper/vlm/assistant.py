@@ -12,6 +12,7 @@ from skillwrapper.invention.questions import (
     InventionAnswer,
     InventionQuestion,
 )
+from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
 from skillwrapper.planning.questions import ActionAnswer, ActionQuestion
 from skillwrapper.symbols.predicates import Predicate
@@ -24,6 +25,7 @@ from skillwrapper.vlm.parsing import (
     parse_plan,
     parse_predicates,
     parse_sequences,
+    says_nothing,
 )
 from skillwrapper.vlm.prompt_library import PromptLibrary
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
@@ -75,10 +77,18 @@ class Assistant:
         """Which predicate may be missing: new ones only, the best first, at most ``count``."""
         names = _parameter_names(allowed_slots(question), _aliases(question))
         taken = (*question.current, *question.rejected)
+        may_be_nothing = question.kind is InconsistencyKind.UNNOTICED
+
+        def parse(reply: str) -> ParsedPredicates:
+            parsed = _only_new(parse_predicates(reply, names), taken)
+            if may_be_nothing and not parsed.predicates and says_nothing(reply):
+                return ParsedPredicates((), ())
+            return parsed
+
         parsed = self._ask(
             self._requests.invention(question),
-            lambda reply: _only_new(parse_predicates(reply, names), taken),
-            lambda parsed: bool(parsed.predicates),
+            parse,
+            lambda parsed: bool(parsed.predicates) or not parsed.unusable,
         )
         return InventionAnswer(parsed.predicates[: question.count], parsed.unusable)
 

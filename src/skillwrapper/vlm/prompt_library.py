@@ -28,6 +28,7 @@ class PromptKind(StrEnum):
     INVENT_EFFECT = "invent_effect"
     INVENT_DETERMINISM = "invent_determinism"
     INVENT_UNEXPLAINED = "invent_unexplained"
+    INVENT_UNNOTICED = "invent_unnoticed"
     INVENT_BATCH = "invent_batch"
     EVALUATE = "evaluate"
     SUMMARISE = "summarise"
@@ -48,6 +49,7 @@ PROMPT_VARIABLES: Mapping[PromptKind, frozenset[str]] = MappingProxyType(
         PromptKind.INVENT_EFFECT: _INVENTION,
         PromptKind.INVENT_DETERMINISM: _INVENTION,
         PromptKind.INVENT_UNEXPLAINED: _INVENTION | {"unexplained"},
+        PromptKind.INVENT_UNNOTICED: _INVENTION,
         PromptKind.INVENT_BATCH: _SCENE | {"slots", "count"},
         PromptKind.EVALUATE: _SCENE | {"predicates", "atoms"},
         PromptKind.SUMMARISE: frozenset({"domain", "objects", "predicates", "atoms", "response"}),

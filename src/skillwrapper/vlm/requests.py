@@ -22,6 +22,7 @@ _INVENTION_PROMPTS = {
     InconsistencyKind.EFFECT: PromptKind.INVENT_EFFECT,
     InconsistencyKind.DETERMINISM: PromptKind.INVENT_DETERMINISM,
     InconsistencyKind.UNEXPLAINED: PromptKind.INVENT_UNEXPLAINED,
+    InconsistencyKind.UNNOTICED: PromptKind.INVENT_UNNOTICED,
 }
 
 
@@ -178,7 +179,8 @@ class RequestBuilder:
 
 def _witness_views(question: InventionQuestion) -> list[tuple[str, Observation]]:
     """The moments a question shows: only those before where what comes after decides nothing."""
-    with_after = question.kind in {InconsistencyKind.EFFECT, InconsistencyKind.UNEXPLAINED}
+    before_only = {InconsistencyKind.PRECONDITION, InconsistencyKind.DETERMINISM}
+    with_after = question.kind not in before_only
     views = []
     for number, transition in enumerate((question.first, question.second), start=1):
         if transition is None:

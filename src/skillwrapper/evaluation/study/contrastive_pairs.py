@@ -89,7 +89,7 @@ class _Reader:
     where: str
 
     def pair(self, entry: _PairEntry) -> ContrastivePair:
-        lonely = entry.kind is InconsistencyKind.UNEXPLAINED
+        lonely = entry.kind in (InconsistencyKind.UNEXPLAINED, InconsistencyKind.UNNOTICED)
         if lonely is not (entry.second is None):
             number = "one execution" if lonely else "two executions"
             raise ConfigurationError(f"{self.where}: expected {number} for kind {entry.kind}")

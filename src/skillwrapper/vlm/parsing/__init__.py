@@ -2,7 +2,12 @@
 
 from skillwrapper.vlm.parsing.actions import ParsedPlan, parse_plan
 from skillwrapper.vlm.parsing.labels import ParsedLabels, parse_labels
-from skillwrapper.vlm.parsing.predicates import ParameterNames, ParsedPredicates, parse_predicates
+from skillwrapper.vlm.parsing.predicates import (
+    ParameterNames,
+    ParsedPredicates,
+    parse_predicates,
+    says_nothing,
+)
 from skillwrapper.vlm.parsing.sequences import ParsedSequences, parse_sequences
 
 __all__ = [
@@ -15,4 +20,5 @@ __all__ = [
     "parse_plan",
     "parse_predicates",
     "parse_sequences",
+    "says_nothing",
 ]

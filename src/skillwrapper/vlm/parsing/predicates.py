@@ -83,6 +83,12 @@ def parse_predicates(reply: str, names: ParameterNames) -> ParsedPredicates:
     return ParsedPredicates(tuple(found.values()), tuple(unusable))
 
 
+def says_nothing(reply: str) -> bool:
+    """Whether a reply ends in the word by which it says that nothing has changed. Never raises."""
+    lines = [re.findall(r"\w+", line.text.casefold()) for line in reply_lines(reply)]
+    return next((words for words in reversed(lines) if words), []) == ["nothing"]
+
+
 def _proposals(lines: Sequence[str]) -> Iterator[_Proposal]:
     texts = [_without(_LABEL, line.lstrip("\"' ")) for line in lines]
     for number, text in enumerate(texts):
