@@ -21,3 +21,7 @@ class InconsistencyKind(StrEnum):
     DETERMINISM = "determinism"
     UNEXPLAINED = "unexplained"
     UNNOTICED = "unnoticed"
+
+
+INCONSISTENT = tuple(k for k in InconsistencyKind if k is not InconsistencyKind.UNNOTICED)
+"""The kinds of which one is always wrong."""

@@ -11,7 +11,7 @@ from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.learning.certification import Certificate
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency
-from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.learning.kinds import INCONSISTENT
 from skillwrapper.runs.decisions import PredicateDecision
 from skillwrapper.runs.figures import RunFigures
 from skillwrapper.symbols import AbstractModel
@@ -108,7 +108,7 @@ class LearningResult:
             theorem1_violations=self.certificate.count("theorem1"),
             undecided=self.certificate.undecided,
             inconsistencies=len(self.fit.inconsistencies),
-            inconsistencies_by_kind={str(kind): kinds[kind] for kind in InconsistencyKind},
+            inconsistencies_by_kind={str(kind): kinds[kind] for kind in INCONSISTENT},
             unresolved=len(self.unresolved),
             evaluation_calls=self.readings.needed,
             evaluation_calls_reasking=self.readings.reasking,
