@@ -79,8 +79,18 @@ def test_new_roles_are_those_that_no_failure_had() -> None:
     assert memory.new_roles("Shut", roles, places).tolist() == [0.0, 1.0]
     assert memory.new_signatures("Shut", roles, places).tolist() == [False, True]
     assert memory.signatures == [(UNTOUCHED,), (UNTOUCHED,)]
-    assert memory.was_tried(SEEN.key, SHUT_LEFT)
-    assert not memory.was_tried(SEEN.key, SHUT_RIGHT)
+    assert memory.was_tried(SEEN.key, b"", SHUT_LEFT)
+    assert not memory.was_tried(SEEN.key, b"", SHUT_RIGHT)
+
+
+def test_what_failed_since_anything_succeeded_is_known_though_pictures_never_repeat() -> None:
+    memory, scene = Memory(GARDEN), GARDEN.scene()
+    memory.start(scene)
+    memory.note(scene, Transition(SEEN, SHUT_LEFT, False, SEEN), state=b"both shut")
+    assert memory.has_failed("another picture", b"both shut", SHUT_LEFT)
+    assert not memory.has_failed("another picture", b"one open", SHUT_LEFT)
+    memory.note(scene, Transition(SEEN, OPEN_RIGHT, True, SEEN), state=b"both shut")
+    assert not memory.has_failed("another picture", b"both shut", SHUT_LEFT)
 
 
 def test_surprises_fade() -> None:

@@ -66,6 +66,7 @@ class Memory:
         self._scenes: dict[Scene, SceneRoles] = {}
         self._failed: dict[str, set[tuple[int, int]]] = defaultdict(set)
         self._tried: dict[tuple[str, SkillInstance], bool] = {}
+        self._vain: set[tuple[bytes, SkillInstance]] = set()
         self.roles: Roles = np.zeros(0, dtype=np.intp)
         self.signatures: list[Signature] = []
         self.seen: dict[str, set[Signature]] = defaultdict(set)
@@ -81,13 +82,22 @@ class Memory:
     def start(self, scene: Scene) -> None:
         """Begin an episode: nothing was done yet with any object."""
         self.roles = self.scene(scene).at_start
+        self._vain.clear()
 
-    def note(self, scene: Scene, transition: Transition, *, predicted: bool | None) -> None:
+    def note(
+        self,
+        scene: Scene,
+        transition: Transition,
+        *,
+        state: bytes = b"",
+        predicted: bool | None = None,
+    ) -> None:
         """Take note of an attempt.
 
         Args:
             scene: where it was made.
             transition: what came of it.
+            state: the labels of the state in which it was made.
             predicted: whether it was predicted to succeed, where that is known.
         """
         own, instance = self.scene(scene), transition.instance
@@ -100,7 +110,9 @@ class Memory:
             self.surprises.note(predicted=predicted, success=transition.success)
         if transition.success:
             self.roles = own.after(self.roles, number)
+            self._vain.clear()
         else:
+            self._vain.add((state, instance))
             self._failed[instance.skill] |= set(enumerate(signature))
 
     def pursue(
@@ -112,13 +124,23 @@ class Memory:
         if (instance.skill, signature) in found:
             self.pursued[instance.skill, signature] += 1
 
-    def was_tried(self, observation: str, instance: SkillInstance) -> bool:
-        """Whether an instance was run where the same was seen, by the observation's key."""
-        return (observation, instance) in self._tried
+    def was_tried(self, observation: str, state: bytes, instance: SkillInstance) -> bool:
+        """Whether to run an instance would only repeat what is known.
 
-    def has_failed(self, observation: str, instance: SkillInstance) -> bool:
-        """Whether an instance failed the last time that the same was seen."""
-        return not self._tried.get((observation, instance), True)
+        It was run where the same was seen, or in vain since anything last succeeded, where the
+        labels were the same.
+
+        Args:
+            observation: key of what is seen.
+            state: the labels.
+            instance: the skill instance.
+        """
+        return (observation, instance) in self._tried or (state, instance) in self._vain
+
+    def has_failed(self, observation: str, state: bytes, instance: SkillInstance) -> bool:
+        """Whether it moreover failed."""
+        failed = not self._tried.get((observation, instance), True)
+        return failed or (state, instance) in self._vain
 
     def new_signatures(
         self, skill: str, roles: Roles, places: NDArray[np.intp]

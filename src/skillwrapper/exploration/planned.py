@@ -61,6 +61,12 @@ class Thought:
     causes: tuple[Inconsistency, ...]
 
     @property
+    def state(self) -> bytes:
+        """The labels of the present state."""
+        labels: bytes = self.lookahead.states[self.lookahead.state[0]].tobytes()
+        return labels
+
+    @property
     def scores(self) -> Values:
         """What every attempt is worth for its price (nodes, instances)."""
         return self.values / (self.lookahead.depth[:, np.newaxis] + 1)
@@ -123,7 +129,9 @@ class PlannedExplorer:
         self._note(situation.scene, situation.done)
         if not situation.done:
             self._memory.start(situation.scene)
-        seen, scene = situation.observation.key, self._memory.scene(situation.scene)
+        scene, here = self._memory.scene(situation.scene), situation.state.tobytes()
+        seen = situation.observation.key
+        failed = [self._memory.has_failed(seen, here, instance) for instance in scene.instances]
         lookahead = look_ahead(
             self._graph_of(situation),
             situation.state,
@@ -131,12 +139,12 @@ class PlannedExplorer:
             scene,
             depth=min(self._settings.lookahead, situation.left - 1),
             most=max(1, self._settings.weighed // max(1, len(scene.instances))),
-            blocked=[n for n, i in enumerate(scene.instances) if self._memory.has_failed(seen, i)],
+            blocked=np.flatnonzero(failed).tolist(),
         )
         causes = distinct_causes(situation.fit.inconsistencies)
         worth = self._weigh(situation, lookahead, causes)
         values = worth.total
-        tried = [self._memory.was_tried(seen, instance) for instance in scene.instances]
+        tried = [self._memory.was_tried(seen, here, instance) for instance in scene.instances]
         values[0, tried] = -_NOTHING
         self._thought = Thought(scene, lookahead, worth, values, causes)
         return self._thought
@@ -199,7 +207,8 @@ class PlannedExplorer:
             if thought is not None and thought.is_witness(instance):
                 self._memory.pursue(thought.causes, thought.scene, instance)
             predicted = None if thought is None else thought.is_predicted(instance)
-            self._memory.note(scene, transition, predicted=predicted)
+            state = b"" if thought is None else thought.state
+            self._memory.note(scene, transition, state=state, predicted=predicted)
             self._noted, self._thought = self._noted + 1, None
 
     def _reason(self, situation: Situation, thought: Thought, node: int, number: int) -> str:
