@@ -11,6 +11,7 @@ from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.pruning import find_burdens
 from skillwrapper.invention.rejections import Rejections
+from skillwrapper.invention.ripeness import Ripeness
 from skillwrapper.invention.screening import UNSTEADY, Screen
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.steadiness import Steadiness
@@ -67,7 +68,9 @@ class Inventor:
         self._settings = settings
         domain, labeller = fitter.recorded.domain, fitter.labeller
         steady = settings.steady and domain.resets_restore_state
-        self._steadiness = Steadiness(labeller.truth, settings.steady_tolerance) if steady else None
+        tolerance, misread = settings.steady_tolerance, labeller.misread
+        self._steadiness = Steadiness(labeller.truth, tolerance, misread) if steady else None
+        self._ripeness = Ripeness(labeller)
         self._screen = Screen(labeller, self._steadiness, settings)
         self._rejections = Rejections(by_cause=settings.reject_by_cause)
         self._executions: dict[str, int] = {}
@@ -95,10 +98,10 @@ class Inventor:
         fit = self._fitter.fit(self._vocabulary.active)
         if not self._settings.new_causes:
             return fit
-        causes = _identities(fit)
+        causes = self._causes(fit)
         if causes - self._open:
             fit = self._mend()
-            causes = _identities(fit)
+            causes = self._causes(fit)
         self._open = causes
         return fit
 
@@ -111,7 +114,7 @@ class Inventor:
         fit = self._mend(ends=self._settings.unnoticed)
         if self._settings.keep_best:
             fit = self._keep_best(fit)
-        self._open = _identities(fit)
+        self._open = self._causes(fit)
         self._rounds_left = self._settings.max_inventions
         return fit
 
@@ -174,7 +177,7 @@ class Inventor:
         nothing.
         """
         tries = self._settings.attempts
-        causes = distinct_causes(fit.inconsistencies)
+        causes = distinct_causes(self._ripe(fit))
         left = [c for c in causes if self._attempts[c.identity] < tries]
         if not left and unnoticed:
             left = [c for c in fit.unnoticed if self._attempts[c.identity] < tries]
@@ -183,6 +186,13 @@ class Inventor:
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),
             default=None,
         )
+
+    def _ripe(self, fit: Fit) -> tuple[Inconsistency, ...]:
+        """What is inconsistent and no suspected misreading."""
+        return self._ripeness.ripe(fit.inconsistencies, self._vocabulary.active)
+
+    def _causes(self, fit: Fit) -> frozenset[Identity]:
+        return frozenset(one.identity for one in self._ripe(fit))
 
     def _retract(self, predicates: Sequence[Predicate]) -> None:
         self._vocabulary.drop(predicates)
@@ -309,10 +319,6 @@ class Inventor:
 
 def _acceptance(trial: Trial) -> Verdict:
     return Verdict.REVIVED if trial.dormant else Verdict.ACCEPTED
-
-
-def _identities(fit: Fit) -> frozenset[Identity]:
-    return frozenset(cause.identity for cause in distinct_causes(fit.inconsistencies))
 
 
 def _rank(fit: Fit) -> tuple[int, float]:

@@ -9,7 +9,7 @@ import numpy as np
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.perception.decoding.chains import Chain, chains_of
 from skillwrapper.perception.decoding.decoder import Decoding, decode
-from skillwrapper.perception.decoding.odds import Floats
+from skillwrapper.perception.decoding.odds import Floats, to_probability
 from skillwrapper.perception.decoding.priors import Priors
 from skillwrapper.perception.labelling import Labeller, TruthSource
 from skillwrapper.symbols import Predicate
@@ -59,6 +59,18 @@ class DecodedLabeller(Labeller):
             return super().read(scene, observation, space)
         labels: Labels = self.values(scene, space.predicates)[number]
         return labels
+
+    @property
+    def misread(self) -> float:
+        """The share of readings that is expected to be wrong."""
+        return self._priors.misread
+
+    def doubt(self, number: int) -> float:
+        """The probability that something is misread in the pictures of a transition."""
+        record = self.recorded.records[number]
+        dirt = dict(zip((c.scene for c in self._chains), self.decoding.dirt, strict=True))
+        nodes = [record.before, record.after]
+        return float(to_probability(dirt[record.scene][nodes]).max())
 
     @property
     def decoding(self) -> Decoding:

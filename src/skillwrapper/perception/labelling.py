@@ -75,6 +75,15 @@ class Labeller:
         labels: Labels = self.truth.labels(space, [observation])[0]
         return labels
 
+    @property
+    def misread(self) -> float:
+        """The share of readings that is expected to be wrong; 0 if all are taken for right."""
+        return 0.0
+
+    def doubt(self, number: int) -> float:
+        """The probability that something is misread in the pictures of a transition."""
+        return 0.0
+
     def _joined(self, scene: Scene, labels: Sequence[PredicateLabels]) -> Labels:
         shape = (len(self.recorded.observations(scene)), 0)
         return np.hstack([x.values for x in labels]) if labels else np.zeros(shape, dtype=np.int8)
