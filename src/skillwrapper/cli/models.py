@@ -16,6 +16,9 @@ from skillwrapper.runs.archive.records import to_plain
 from skillwrapper.symbols.describe import describe_operator
 from skillwrapper.symbols.pddl import print_domain
 
+_MOST_OVERRULED = 10
+"""Overruled readings that are shown; ``--json`` tells all."""
+
 RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
 
 
@@ -55,6 +58,7 @@ def _describe(learned: ArchivedIteration) -> dict[str, object]:
         ],
         "operators": [describe_operator(o, learned.untested(o)) for o in model.operators],
         "certificate": to_plain(learned.certificate),
+        "decoding": to_plain(learned.decoding) if learned.decoding else None,
         "unresolved": [to_plain(cause) for cause in learned.unresolved],
     }
 
@@ -68,12 +72,17 @@ def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:
         agreement = learned.agreement(predicate)
         if agreement is not None:
             console.print(f"      agreement of the votes: {agreement:.1%}", markup=False)
+        rates = learned.decoding.rates_of(predicate.name) if learned.decoding else None
+        if rates is not None:
+            wrong = f"{rates.false_positive:.1%} of false, {rates.false_negative:.1%} of true atoms"
+            console.print(f"      misread, as estimated: {wrong}", markup=False)
     console.print("\noperators", style="bold")
     for operator in learned.model.operators:
         for line in describe_operator(operator, learned.untested(operator)).splitlines():
             console.print(f"  {line}", markup=False)
         console.print("")
     _print_certificate(learned)
+    _print_decoding(learned, pictures)
     _print_unresolved(learned, pictures)
 
 
@@ -95,6 +104,23 @@ def _print_certificate(learned: ArchivedIteration) -> None:
             f"{violation.reason}",
             markup=False,
         )
+
+
+def _print_decoding(learned: ArchivedIteration, pictures: PictureStore) -> None:
+    decoding = learned.decoding
+    if decoding is None:
+        return
+    console = results()
+    console.print(
+        f"  of {decoding.readings} readings {len(decoding.overruled)} are taken for mistakes; "
+        f"{decoding.in_doubt} atoms are in doubt",
+        markup=False,
+    )
+    for one in decoding.overruled[:_MOST_OVERRULED]:
+        where = ", ".join(str(pictures.path(sha)) for sha in one.pictures)
+        read = "true" if one.read else "false"
+        chance = f"true with probability {one.posterior:.2f}"
+        console.print(f"    {one.atom}: read as {read}, {chance}: {where}", markup=False)
 
 
 def _print_unresolved(learned: ArchivedIteration, pictures: PictureStore) -> None:

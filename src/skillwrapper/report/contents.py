@@ -126,7 +126,9 @@ class ReportContents:
             finished=_moment(times[-1]) if times else None,
             history=history,
             summary=latest.summary,
-            predicates=tuple(PredicateView.of(p, history, labels) for p in model.predicates),
+            predicates=tuple(
+                PredicateView.of(p, history, labels, latest.decoding) for p in model.predicates
+            ),
             set_aside=tuple(_set_aside(history, model)),
             skills=view_skills(model, history),
             pddl=print_domain(model),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from skillwrapper.errors import FileError
 from skillwrapper.report.history import DatedDecision, RunHistory
 from skillwrapper.runs.archive import RecordedLabels
-from skillwrapper.runs.archive.records import CertificateRecord
+from skillwrapper.runs.archive.records import CertificateRecord, DecodingRecord, ErrorRatesRecord
 from skillwrapper.symbols import AbstractModel, Operator
 from skillwrapper.symbols.operators import Variable
 from skillwrapper.symbols.pddl import print_domain
@@ -28,6 +28,7 @@ class PredicateView:
         true: how many of its groundings were read as true, over all pictures.
         false: as false.
         unknown: as unknown.
+        misread: how often it is misread, as estimated; None if labels were taken as they were read.
     """
 
     signature: str
@@ -36,9 +37,16 @@ class PredicateView:
     true: int
     false: int
     unknown: int
+    misread: ErrorRatesRecord | None = None
 
     @classmethod
-    def of(cls, predicate: Predicate, history: RunHistory, labels: RecordedLabels) -> PredicateView:
+    def of(
+        cls,
+        predicate: Predicate,
+        history: RunHistory,
+        labels: RecordedLabels,
+        decoding: DecodingRecord | None,
+    ) -> PredicateView:
         """Gather what is known of a predicate."""
         counts = labels.count(predicate.name)
         return cls(
@@ -48,6 +56,7 @@ class PredicateView:
             counts[True],
             counts[False],
             counts[None],
+            decoding.rates_of(predicate.name) if decoding else None,
         )
 
     @property

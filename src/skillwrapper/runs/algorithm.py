@@ -29,6 +29,7 @@ from skillwrapper.learning.inconsistencies import distinct_causes
 from skillwrapper.learning.learner import make_learner
 from skillwrapper.perception.decoded_labelling import DecodedLabeller
 from skillwrapper.perception.labelling import Labeller
+from skillwrapper.perception.overruling import DecodingCertificate, certify_decoding
 from skillwrapper.perception.reading_calls import ReadingCalls
 from skillwrapper.perception.truth_table import LabelProvider, TruthTable
 from skillwrapper.runs.decisions import PredicateDecision
@@ -225,7 +226,13 @@ class LearningAlgorithm:
             readings=ReadingCosts(self._readings.needed, self._readings.reasking),
             pairs_covered=self._pairs.share_covered(),
             agreement={name: share for name, share in agreement.items() if share is not None},
+            decoding=self._certify_decoding(),
         )
+
+    def _certify_decoding(self) -> DecodingCertificate | None:
+        if not isinstance(self._labeller, DecodedLabeller):
+            return None
+        return certify_decoding(self._labeller, self._settings.learning.least_confidence)
 
     def _labels(self, result: LearningResult) -> tuple[SceneLabels, ...]:
         return tuple(

@@ -12,6 +12,7 @@ from skillwrapper.learning.certification import Certificate
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import INCONSISTENT
+from skillwrapper.perception.overruling import DecodingCertificate
 from skillwrapper.runs.decisions import PredicateDecision
 from skillwrapper.runs.figures import RunFigures
 from skillwrapper.symbols import AbstractModel
@@ -62,6 +63,7 @@ class LearningResult:
         readings: calls that reading the pictures took.
         pairs_covered: share of the pairs of skill instances that were tried, 0 to 1.
         agreement: for every predicate that was voted on the share of votes for the label.
+        decoding: which readings were overruled; None if labels were taken as they were read.
     """
 
     fit: Fit
@@ -73,6 +75,7 @@ class LearningResult:
     readings: ReadingCosts
     pairs_covered: float
     agreement: Mapping[str, float]
+    decoding: DecodingCertificate | None = None
 
     @property
     def model(self) -> AbstractModel:

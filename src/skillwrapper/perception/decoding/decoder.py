@@ -12,7 +12,7 @@ from skillwrapper.perception.decoding.cells import Cells, ChainCells
 from skillwrapper.perception.decoding.chains import Chain
 from skillwrapper.perception.decoding.conditions import Conditions
 from skillwrapper.perception.decoding.messages import Joint, Messages, Transitions
-from skillwrapper.perception.decoding.odds import Floats, to_log_odds
+from skillwrapper.perception.decoding.odds import Floats, to_log_odds, to_probability
 from skillwrapper.perception.decoding.priors import Priors
 from skillwrapper.perception.decoding.readings import ErrorRates, Readings
 from skillwrapper.perception.decoding.rules import Rules
@@ -43,6 +43,12 @@ class Decoding:
     rates: Mapping[Predicate, ErrorRates]
     misfit: Mapping[Predicate, float]
     exception: float
+
+    @property
+    def dirty(self) -> float:
+        """The expected share of pictures in which something is misread; 0 if there are none."""
+        odds = np.concatenate([np.zeros(0), *self.dirt])
+        return float(to_probability(odds).mean()) if len(odds) else 0.0
 
     def without(self, names: Collection[str]) -> Decoding:
         """The same without the predicates of some names."""

@@ -22,6 +22,7 @@ from skillwrapper.runs.archive.records import (
     CurvePointRecord,
     DecisionRecord,
     DecisionsFile,
+    DecodingRecord,
     EpisodeRecord,
     EventRecord,
     ExecutionRecord,
@@ -82,6 +83,12 @@ class ArchivedIteration:
     def decisions(self) -> tuple[DecisionRecord, ...]:
         """What was decided of predicates, in order."""
         return read_json(self.folder / "decisions.json", DecisionsFile).root
+
+    @cached_property
+    def decoding(self) -> DecodingRecord | None:
+        """Which readings were overruled; None if labels were taken as they were read."""
+        path = self.folder / "decoding.json"
+        return read_json(path, DecodingRecord) if path.exists() else None
 
     @cached_property
     def labels(self) -> RecordedLabels:

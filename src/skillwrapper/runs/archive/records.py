@@ -112,6 +112,40 @@ class CertificateRecord(Record):
     theorem1_violations: Count
 
 
+class OverruledRecord(Record):
+    """A reading that is taken for a mistake."""
+
+    scene: str
+    pictures: tuple[Sha256, ...]
+    atom: str
+    read: bool
+    posterior: Share
+
+
+class ErrorRatesRecord(Record):
+    """How often a predicate is misread, as estimated without the truth."""
+
+    predicate: str
+    false_positive: Share
+    false_negative: Share
+    negatives: float = Field(ge=0.0)
+    positives: float = Field(ge=0.0)
+
+
+class DecodingRecord(Record):
+    """What decoding made of the readings."""
+
+    readings: Count
+    in_doubt: Count
+    dirty: Share
+    rates: tuple[ErrorRatesRecord, ...]
+    overruled: tuple[OverruledRecord, ...]
+
+    def rates_of(self, predicate: str) -> ErrorRatesRecord | None:
+        """Those of a predicate, by its name."""
+        return next((found for found in self.rates if found.predicate == predicate), None)
+
+
 class SummaryRecord(RunFigures):
     """Figures at the end of an iteration."""
 

@@ -15,13 +15,17 @@ from skillwrapper.exploration.explorer import SequenceChoice
 from skillwrapper.files.writing import append_line, json_text, write_atomically
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.untested import find_untested
+from skillwrapper.perception.overruling import DecodingCertificate
 from skillwrapper.runs.archive.archive import RunArchive
 from skillwrapper.runs.archive.labels import truth_table
 from skillwrapper.runs.archive.records import (
     DecisionRecord,
+    DecodingRecord,
     EpisodeRecord,
+    ErrorRatesRecord,
     ExecutionRecord,
     InconsistencyRecord,
+    OverruledRecord,
     SceneRecord,
     SummaryRecord,
     WitnessRecord,
@@ -104,6 +108,8 @@ class ArchiveWriter:
         _keep(folder / "truth_table.csv", truth_table(event.labels))
         _keep(folder / "certificate.json", json_text(result.certificate.to_json()))
         _keep(folder / "unresolved.json", json_text(_unresolved(result)))
+        if result.decoding is not None:
+            _keep(folder / "decoding.json", json_text(to_plain(_decoding(result.decoding))))
         _keep(folder / "decisions.json", json_text([to_plain(d) for d in decisions]))
         _keep(folder / "summary.json", json_text(to_plain(_summary(result))))
 
@@ -169,6 +175,34 @@ def _summary(result: LearningResult) -> SummaryRecord:
         pairs_covered=result.pairs_covered,
         untested={name: tuple(sorted(map(str, found))) for name, found in untested.items()},
         agreement={name: round(share, 4) for name, share in result.agreement.items()},
+    )
+
+
+def _decoding(found: DecodingCertificate) -> DecodingRecord:
+    return DecodingRecord(
+        readings=found.readings,
+        in_doubt=found.in_doubt,
+        dirty=round(found.dirty, 4),
+        rates=tuple(
+            ErrorRatesRecord(
+                predicate=predicate.name,
+                false_positive=round(rates.false_positive, 4),
+                false_negative=round(rates.false_negative, 4),
+                negatives=round(rates.negatives, 1),
+                positives=round(rates.positives, 1),
+            )
+            for predicate, rates in found.rates.items()
+        ),
+        overruled=tuple(
+            OverruledRecord(
+                scene=one.scene.name,
+                pictures=_shas(one.observation),
+                atom=str(one.atom),
+                read=one.read,
+                posterior=round(one.posterior, 4),
+            )
+            for one in found.overruled
+        ),
     )
 
 
