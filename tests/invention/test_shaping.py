@@ -59,6 +59,26 @@ def test_a_named_object_becomes_a_parameter(given: Predicate, wanted: Predicate)
 
 
 @pytest.mark.parametrize(
+    ("given", "name", "meaning"),
+    [
+        ("on_a_place", "on_place", "The wheel stands on a place."),
+        ("stands", "stands", "the wheel stands on some place."),
+    ],
+)
+def test_what_says_some_is_a_case_of_a_relation(given: str, name: str, meaning: str) -> None:
+    found = lift(Predicate(given, ("wheel",), meaning), GARAGE)
+    assert found is not None
+    assert (found.name, found.types) == (name, ("wheel", "place"))
+    assert found.semantics.casefold() == "the wheel stands on the place."
+
+
+@pytest.mark.parametrize("meaning", ["no place is near the wheel", "the wheel is a part"])
+def test_what_says_none_or_means_itself_stays(meaning: str) -> None:
+    given = Predicate("alone", ("wheel",), meaning)
+    assert lift(given, GARAGE) == given
+
+
+@pytest.mark.parametrize(
     "harmless",
     [
         Predicate("held", ("part",), "the robot holds the part"),

@@ -60,7 +60,7 @@ def test_another_meaning_is_another_predicate() -> None:
 def test_other_words_for_the_types_are_no_other_meaning() -> None:
     known = Predicate("full", ("cup",), "The cup is full.")
     (wider,) = vocabulary(known).fresh([Predicate("full", ("plate",), "the plate is full")])
-    assert wider == Predicate("full", ("item",), "The cup is full.")
+    assert wider == Predicate("full", ("item",), "The item is full.")
     (renamed,) = vocabulary(known).fresh([Predicate("full", ("plate",), "No room is left on it.")])
     assert renamed == Predicate("full_plate", ("plate",), "No room is left on it.")
 
@@ -121,11 +121,18 @@ def test_a_candidate_replaces_one_of_its_name() -> None:
     assert vocabulary(CLEAN_CUP, HELD).with_candidate(wider) == (HELD, wider)
 
 
+def test_the_known_words_for_other_types_are_no_other_meaning() -> None:
+    known = Predicate("full", ("cup",), "The cup is full.")
+    (wider,) = vocabulary(known).fresh([replace(known, types=("plate",))])
+    assert wider == Predicate("full", ("item",), "The item is full.")
+
+
 def test_one_of_the_same_meaning_under_another_name_is_widened() -> None:
     known = Predicate("on_shelf", ("cup", "robot"), "the cup is above the robot")
     words = vocabulary(known)
     same = Predicate("over", ("item", "robot"), "The item is above the robot.")
-    assert words.fresh([same]) == (replace(known, types=("item", "robot")),)
+    wider = Predicate("on_shelf", ("item", "robot"), "the item is above the robot")
+    assert words.fresh([same]) == (wider,)
     assert words.fresh([replace(same, types=("cup", "robot"), semantics=known.semantics)]) == ()
 
 

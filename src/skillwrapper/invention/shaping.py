@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import replace
 
 from skillwrapper.symbols import Predicate
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.types import Object
 
 _MOST_PARAMETERS = 2
+_SOME = r"(?<![A-Za-z])(?:an?|some|any|one|one of the)"
 
 
 def hidden_constant(predicate: Predicate, domain: Domain) -> Object | None:
@@ -28,11 +31,17 @@ def lift(predicate: Predicate, domain: Domain) -> Predicate | None:
 
     The object's name gives way to a type that it shares with others: ``on_tray(?cup)`` becomes
     ``on_furniture(?cup, ?furniture)``. A name that can only mean one of the parameters becomes
-    the type of that parameter.
+    the type of that parameter. Likewise what says that there is some object of a type, "on some
+    furniture", is a case of a relation to it; operators can say "some" by themselves (D2).
 
     Returns:
         The predicate itself if it names no object; None if it cannot be lifted.
     """
+    lifted = _lift_constants(predicate, domain)
+    return lifted and _lift_existential(lifted, domain)
+
+
+def _lift_constants(predicate: Predicate, domain: Domain) -> Predicate | None:
     for _ in range(_MOST_PARAMETERS + 1):
         constant = hidden_constant(predicate, domain)
         if constant is None:
@@ -49,15 +58,35 @@ def lift(predicate: Predicate, domain: Domain) -> Predicate | None:
     return None
 
 
+def _lift_existential(predicate: Predicate, domain: Domain) -> Predicate:
+    """A property that says "some object of a type" as a relation to that object."""
+    related = domain.types.closure(predicate.types)
+    for name in domain.types.names if predicate.arity == 1 else ():
+        some = re.compile(rf"(?:{_SOME})[ _-]{_phrase(name).pattern}", re.IGNORECASE)
+        is_other = name not in related and not domain.types.ancestors[name] & set(predicate.types)
+        if is_other and some.search(predicate.semantics):
+            return Predicate(
+                some.sub(name, predicate.name),
+                (*predicate.types, name),
+                some.sub(f"the {name}", predicate.semantics),
+            )
+    return predicate
+
+
 def widen(predicate: Predicate, domain: Domain) -> Predicate:
     """A relation over the widest types that skills take: what is handled alike is related alike."""
     if len(predicate.types) < _MOST_PARAMETERS:
         return predicate
     widest = {t: _widest(t, domain) for t in predicate.types}
+    return with_types(predicate, [widest[t] for t in predicate.types])
+
+
+def with_types(predicate: Predicate, types: Sequence[str]) -> Predicate:
+    """A predicate for other types, which its meaning then speaks of."""
     semantics = predicate.semantics
-    for narrow, wide in widest.items():
-        semantics = _replaced(semantics, narrow, wide)
-    return Predicate(predicate.name, tuple(widest[t] for t in predicate.types), semantics)
+    for old, new in dict(zip(predicate.types, types, strict=True)).items():
+        semantics = _replaced(semantics, old, new)
+    return replace(predicate, types=tuple(types), semantics=semantics)
 
 
 def _widest(type_name: str, domain: Domain) -> str:

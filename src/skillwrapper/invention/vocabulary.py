@@ -7,6 +7,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
+from skillwrapper.invention.shaping import with_types
 from skillwrapper.symbols import Predicate
 from skillwrapper.world.types import TypeHierarchy
 
@@ -91,7 +92,7 @@ class Vocabulary:
         types = [self._common(a, b) for a, b in zip(known.types, other.types, strict=True)]
         if None in types:
             return None
-        return replace(known, types=tuple(t for t in types if t is not None))
+        return with_types(known, [t for t in types if t is not None])
 
     def _common(self, first: str, second: str) -> str | None:
         """The most specific type that covers both."""
@@ -116,12 +117,13 @@ def _mean_the_same(known: Predicate, other: Predicate) -> bool:
 
     One that comes without a meaning means what the known one does.
     """
-    return not other.semantics or _meaning(known) == _meaning(other)
+    as_known = replace(other, types=known.types) if known.arity == other.arity else other
+    return not other.semantics or _meaning(known) in (_meaning(other), _meaning(as_known))
 
 
 def _is_synonym(known: Predicate, other: Predicate) -> bool:
     """Whether two predicates of different names have one meaning, in so many words."""
-    same = bool(other.semantics) and _meaning(known) == _meaning(other)
+    same = bool(other.semantics) and _mean_the_same(known, other)
     return same and known.name != other.name
 
 
