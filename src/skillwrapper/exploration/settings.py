@@ -13,7 +13,7 @@ class ExplorationSettings(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     explorer: str = Field(
-        default="paper",
+        default="planned",
         description="who chooses what to try next: planned, by expected information; mixed, the "
         "same with proposed sequences among the candidates; paper, as published; or random",
     )

@@ -41,6 +41,6 @@ def test_smoke(tmp_path: Path) -> None:
         unsolved = sum(row["causes"].values())
         solved = sum(row[kind]["mean"] * count / 100 for kind, count in COUNTS.items())
         assert round(solved) + unsolved == sum(COUNTS.values()), name
-    for name in ("ours", "ours-5x15", "random", "fm-invent", "no-heuristic"):
+    for name in ("ours", "ours-5x15", "random", "fm-invent", "no-heuristic", "paper-exploration"):
         assert 0 < rows[name]["area"]["mean"] < 1
         assert (out / "cells" / f"{name}-burger-s0-none" / "run" / "curve.json").is_file()

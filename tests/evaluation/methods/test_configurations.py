@@ -16,8 +16,9 @@ WHOLE = RunSettings(
 CHANGES = (
     ("ours", {}),
     ("ours-5x15", {"iterations": (10, 5), "budget": (30, 15)}),
-    ("random", {"explorer": ("paper", "random")}),
-    ("no-heuristic", {"choice": ("pareto", "uniform")}),
+    ("random", {"explorer": ("planned", "random")}),
+    ("paper-exploration", {"explorer": ("planned", "paper")}),
+    ("no-heuristic", {"explorer": ("planned", "paper"), "choice": ("pareto", "uniform")}),
     ("fm-invent", {"invention": ("pairs", "batch")}),
 )
 
@@ -42,5 +43,5 @@ def _differences(before: dict, after: dict) -> dict[str, tuple[object, object]]:
 
 def test_registry() -> None:
     assert [method.name for method in METHODS.values()] == list(METHODS)
-    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 10
+    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 11
     assert all(m.source is None or m.source in METHODS for m in METHODS.values())

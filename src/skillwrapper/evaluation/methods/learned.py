@@ -17,7 +17,7 @@ from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.runs.settings import RunSettings
 
 WHOLE_METHOD: Final = Shares(
-    "reads pictures, proposes predicates and skill sequences",
+    "reads pictures, proposes predicates",
     "explores, asks, scores and prunes predicates, learns operators, plans",
 )
 

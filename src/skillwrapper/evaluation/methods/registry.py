@@ -9,7 +9,7 @@ from typing import Final
 from skillwrapper.evaluation.methods.expert import EXPERT, EXPERT_READ
 from skillwrapper.evaluation.methods.fm_invent import FM_INVENT
 from skillwrapper.evaluation.methods.method import Method
-from skillwrapper.evaluation.methods.no_heuristic import NO_HEURISTIC
+from skillwrapper.evaluation.methods.proposed_sequences import NO_HEURISTIC, PAPER_EXPLORATION
 from skillwrapper.evaluation.methods.random_exploration import RANDOM_EXPLORATION
 from skillwrapper.evaluation.methods.skillwrapper import OURS, OURS_PAPER_BUDGET
 from skillwrapper.evaluation.methods.system import SYSTEM, SYSTEM_ABSENCE
@@ -24,6 +24,7 @@ _ALL: tuple[Method, ...] = (
     RANDOM_EXPLORATION,
     FM_INVENT,
     NO_HEURISTIC,
+    PAPER_EXPLORATION,
     OURS_PAPER_BUDGET,
     OURS,
 )
