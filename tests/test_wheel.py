@@ -89,7 +89,8 @@ def test_runs_an_experiment(installed: Installed, tmp_path: Path) -> None:
     file = tmp_path / "tiny.yaml"
     file.write_text(
         "name: tiny\nmethods: [random]\ndomains: [burger]\nseeds: [0]\n"
-        "settings: {iterations: 1, budget: 4}\nproblems: {easy: 1, hard: 0, impossible: 0}\n"
+        "settings: {iterations: 1, exploration: {budget: 4}}\n"
+        "problems: {easy: 1, hard: 0, impossible: 0}\n"
     )
     installed.skillwrapper("experiment", "run", file, "--out", tmp_path / "tiny")
     table = json.loads(

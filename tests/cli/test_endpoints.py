@@ -181,7 +181,7 @@ def test_calls_are_listed_and_added_up(
     asked = sum(t["made"] for t in told["totals"] if t["role"] == "evaluate")
     assert told["readings"]["needed"] == asked
     assert told["readings"]["reasking"] > 0
-    assert command(monkeypatch, "calls", run, "--role", "propose", "--iteration", "1") == 0
+    assert command(monkeypatch, "calls", run, "--role", "act") == 0
     shown = capsys.readouterr().out
     assert f"evaluate: {asked} calls needed" in " ".join(shown.split())
     assert shown.count("answered") == 1

@@ -34,7 +34,7 @@ from skillwrapper.world import Observation, Scene
 CONFIG = RunSettings(
     domain="lamps",
     iterations=3,
-    exploration=ExplorationSettings(budget=8, least_length=8, candidates=3),
+    exploration=ExplorationSettings(explorer="paper", budget=8, least_length=8, candidates=3),
 )
 
 

@@ -12,7 +12,7 @@ from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.invention.questions import InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationQuestion
-from skillwrapper.runs.models import open_model, open_prompts
+from skillwrapper.runs.models import GREETING, open_model, open_prompts
 from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.runs.specimens import Specimen, read_specimen
 from skillwrapper.symbols import Atom
@@ -94,7 +94,7 @@ def _bundled() -> DomainPackage:
 
 
 def _answers(model: VisionLanguageModel) -> Finding:
-    reply = model.complete(ModelRequest(Role.ACT, "", "Reply with the word: ready"))
+    reply = model.complete(ModelRequest(Role.ACT, "", GREETING))
     return Finding("endpoint", True, f"it answers, in {reply.usage.seconds:.1f} s")
 
 

@@ -103,6 +103,7 @@ def _run(
         watching += observers
         for observer in watching:
             observer(RunStarted(0, session.counter))
+        session.greet()
         return LearningAlgorithm(settings, environment, session.assistant, watching, earlier).run()
 
 

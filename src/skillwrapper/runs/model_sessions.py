@@ -8,7 +8,15 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from skillwrapper.runs.models import EMBEDDED, close_with, model_names, open_model, open_prompts
+from skillwrapper.runs.models import (
+    EMBEDDED,
+    ENDPOINT,
+    GREETING,
+    close_with,
+    model_names,
+    open_model,
+    open_prompts,
+)
 from skillwrapper.runs.settings import CallSettings, RunSettings
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.limits import CallBudget, LimitedModel
@@ -59,10 +67,21 @@ class ModelSession:
     Attributes:
         assistant: asks them.
         counter: counts the calls.
+        distant: those of them that somebody else serves.
     """
 
     assistant: Assistant
     counter: CallCounter
+    distant: tuple[VisionLanguageModel, ...] = ()
+
+    def greet(self) -> None:
+        """Ask every distant model for one word, before a robot moves for nothing.
+
+        Raises:
+            ProviderError: if one does not answer, for instance because of a wrong name or key.
+        """
+        for model in self.distant:
+            model.complete(ModelRequest(Role.ACT, "", GREETING))
 
 
 @dataclass(frozen=True)
@@ -140,7 +159,8 @@ def open_session(
         counted = {name: _CountedModel(m, counter) for name, m in opened.items()}
         by_role = {role: counted[_name_of(role, settings, model)] for role in Role}
         asking = settings.model.asking
-        yield ModelSession(Assistant(ModelSet(by_role), prompts, asking), counter)
+        distant = tuple(m for name, m in counted.items() if name.startswith(ENDPOINT))
+        yield ModelSession(Assistant(ModelSet(by_role), prompts, asking), counter, distant)
 
 
 def _open_all(

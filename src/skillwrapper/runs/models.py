@@ -14,6 +14,10 @@ from skillwrapper.vlm.protocol import VisionLanguageModel
 from skillwrapper.vlm.recorded_model import RecordedModel
 
 EMBEDDED = "embedded"
+ENDPOINT = "openai:"
+"""How the names of models begin that are asked over an endpoint."""
+GREETING = "Reply with the word: ready"
+"""What is asked of a model to see whether it answers at all."""
 _KINDS = ("embedded", "openai:NAME", "recorded:DIR")
 
 

@@ -1,4 +1,4 @@
-"""Exploration as the paper has it, by sequences that the model proposes, with and without scores."""
+"""Exploration as the paper has it: the model proposes sequences, scores or chance choose one."""
 
 from __future__ import annotations
 
