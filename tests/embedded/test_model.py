@@ -11,7 +11,11 @@ from seen_kitchen import EXPERT, LEXICON, embedded_model, kitchen
 
 from skillwrapper.embedded import EmbeddedModel, NoiseProfile
 from skillwrapper.exploration.questions import ProposalQuestion
-from skillwrapper.invention.questions import BatchInventionQuestion, InventionQuestion
+from skillwrapper.invention.questions import (
+    BatchInventionQuestion,
+    InventionQuestion,
+    RephrasingQuestion,
+)
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationQuestion
 from skillwrapper.planning.questions import ActionQuestion
@@ -203,6 +207,21 @@ def test_where_nothing_has_changed_it_says_so() -> None:
     question = invention(InconsistencyKind.UNNOTICED, replace(done, after=done.before), None)
     answer = assistant().invent_predicates(question)
     assert (answer.predicates, answer.unusable) == ((), ())
+
+
+@pytest.mark.parametrize(
+    ("candidate", "meaning"),
+    [
+        ("on_board", "The cuttable lies on the board."),
+        ("on_a_station", "The cuttable lies on a station."),
+    ],
+)
+def test_a_candidate_in_general_terms(candidate: str, meaning: str) -> None:
+    given = Predicate(candidate, ("cuttable",), meaning)
+    question = RephrasingQuestion(kitchen().domain, given, ("cuttable", "station"))
+    (said,) = assistant().rephrase_predicate(question).predicates
+    assert said.types == ("cuttable", "station")
+    assert said.semantics.rstrip(".") == "The cuttable lies on the station"
 
 
 def test_a_whole_vocabulary() -> None:

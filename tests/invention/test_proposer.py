@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import pytest
 
 from skillwrapper.invention.proposer import ModelProposer
-from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
+from skillwrapper.invention.questions import (
+    InventionAnswer,
+    InventionQuestion,
+    RephrasingQuestion,
+)
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -46,12 +53,18 @@ KNOWN, BAD, NEW = (Predicate(name, ()) for name in ("known", "bad", "new"))
 
 
 class Adviser:
-    def __init__(self) -> None:
+    def __init__(self, *proposed: Predicate, said: Sequence[Predicate] = ()) -> None:
+        self.proposed, self.said = proposed or (NEW,), tuple(said)
         self.questions: list[InventionQuestion] = []
+        self.rephrasings: list[RephrasingQuestion] = []
 
     def invent_predicates(self, question: InventionQuestion) -> InventionAnswer:
         self.questions.append(question)
-        return InventionAnswer((NEW,), ("line 2: no predicate",))
+        return InventionAnswer(self.proposed, ("line 2: no predicate",))
+
+    def rephrase_predicate(self, question: RephrasingQuestion) -> InventionAnswer:
+        self.rephrasings.append(question)
+        return InventionAnswer(self.said)
 
 
 def transition(number: int, success: bool) -> Transition:
@@ -94,3 +107,33 @@ def test_an_unexplained_change_adds_the_types_of_its_objects() -> None:
     assert (question.first, question.second) == (transitions[0], None)
     assert question.types == ("robot", "item", "place", "stove")
     assert question.unexplained == (free,)
+
+
+@pytest.mark.parametrize(
+    ("said", "wanted"),
+    [
+        ([Predicate("rests", ("item", "place"), "the item rests on the place")], "rests"),
+        ([Predicate("rests", ("item",), "the item rests")], "on_place"),
+        ([Predicate("rests", ("item", "place"), "the item rests on the rack")], "on_place"),
+        ([], "on_place"),
+    ],
+)
+def test_a_lifted_candidate_is_said_in_words_of_the_model(
+    said: list[Predicate], wanted: str
+) -> None:
+    """D8; where these are of no use, words are replaced."""
+    adviser = Adviser(Predicate("on_shelf", ("item",), "the item rests on the shelf"), said=said)
+    places = (Object("shelf", ("place",)), Object("rack", ("place",)))
+    kitchen = replace(KITCHEN, objects=(*KITCHEN.objects, *places))
+    recorded = RecordedTransitions(kitchen)
+    recorded.add(Episode(kitchen.scene(), 0, (transition(0, True), transition(1, False))))
+    kind = InconsistencyKind.PRECONDITION
+    one = Inconsistency(kind, "Swap", 0, 1, 1, ("Swap", kind, (), ()))
+    for settings, asked in ((LearningSettings(), 1), (LearningSettings(rephrase=False), 0)):
+        adviser.rephrasings.clear()
+        proposer = ModelProposer(recorded, adviser, settings)
+        for _ in range(2):
+            (found,) = proposer.propose(one, [], [], attempt=0)
+            assert found.types == ("item", "place")
+            assert found.name == (wanted if asked else "on_place")
+        assert len(adviser.rephrasings) == asked

@@ -14,6 +14,7 @@ from skillwrapper.embedded.misreading import Misreading
 from skillwrapper.embedded.noise import NO_NOISE, NoiseProfile
 from skillwrapper.embedded.prompt_text import PromptText
 from skillwrapper.embedded.proposing import propose_sequences
+from skillwrapper.embedded.rephrasing import rephrase
 from skillwrapper.embedded.sight import Eye, SceneReader, Sight, Sights, first_sight, sight_at
 from skillwrapper.embedded.spoiling import spoil
 from skillwrapper.embedded.words import Words
@@ -108,9 +109,14 @@ class EmbeddedModel:
         if "Run so far" in prompt:
             return plan_actions(prompt, *_now_and_goal(prompt, sights), self._lexicon, chance)
         if "Allowed parameters" in prompt:
-            inventor = invent if "Executions" in prompt else invent_vocabulary
-            return inventor(prompt, sights, self._lexicon, chance)
+            return self._invent(prompt, sights, chance)
         return "I can only answer prompts with the sections of the bundled templates."
+
+    def _invent(self, prompt: PromptText, sights: Sights, chance: Chance) -> str:
+        if "Candidate" in prompt:
+            return rephrase(prompt)
+        inventor = invent if "Executions" in prompt else invent_vocabulary
+        return inventor(prompt, sights, self._lexicon, chance)
 
 
 def _now_and_goal(prompt: PromptText, sights: Sights) -> tuple[Sight | None, Sight | None]:

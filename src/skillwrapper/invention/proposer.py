@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Protocol
 
-from skillwrapper.invention.questions import InventionAnswer, InventionQuestion
+from skillwrapper.invention.questions import (
+    InventionAnswer,
+    InventionQuestion,
+    RephrasingQuestion,
+)
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.shaping import lift, widen
 from skillwrapper.learning.inconsistencies import Inconsistency
@@ -19,6 +23,10 @@ class Adviser(Protocol):
 
     def invent_predicates(self, question: InventionQuestion) -> InventionAnswer:
         """Candidates for a missing predicate."""
+        ...
+
+    def rephrase_predicate(self, question: RephrasingQuestion) -> InventionAnswer:
+        """A candidate in general terms."""
         ...
 
 
@@ -37,6 +45,7 @@ class ModelProposer:
         self._recorded = recorded
         self._adviser = adviser
         self._settings = settings
+        self._rephrased: dict[Predicate, Predicate] = {}
 
     def propose(
         self,
@@ -69,7 +78,19 @@ class ModelProposer:
         domain = self._recorded.domain
         shaped = lift(predicate, domain) if self._settings.lift else predicate
         if shaped is not None:
+            if self._settings.rephrase and shaped.arity > predicate.arity:
+                shaped = self._rephrase(predicate, shaped)
             yield widen(shaped, domain) if self._settings.widen else shaped
+
+    def _rephrase(self, predicate: Predicate, lifted: Predicate) -> Predicate:
+        """A lifted candidate in words of the model's; each is asked for only once."""
+        if predicate not in self._rephrased:
+            domain = self._recorded.domain
+            question = RephrasingQuestion(domain, predicate, lifted.types)
+            said = self._adviser.rephrase_predicate(question).predicates
+            fitting = (p for p in said if p.types == lifted.types and lift(p, domain) == p)
+            self._rephrased[predicate] = next(fitting, lifted)
+        return self._rephrased[predicate]
 
     def _types(self, inconsistency: Inconsistency) -> tuple[str, ...]:
         """The skill's types; for an unexplained change also those of its objects (D1)."""

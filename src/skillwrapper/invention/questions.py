@@ -54,6 +54,21 @@ class InventionAnswer:
 
 
 @dataclass(frozen=True)
+class RephrasingQuestion:
+    """How a candidate is said that leaves open which object it is about (D8).
+
+    Attributes:
+        domain: types, objects and skills.
+        candidate: speaks of a certain object, or of some object of a type.
+        types: the types of the parameters that are wanted, in their order.
+    """
+
+    domain: Domain
+    candidate: Predicate
+    types: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class BatchInventionQuestion:
     """All predicates at once from many pictures (the FM Invent baseline)."""
 

@@ -43,6 +43,11 @@ class LearningSettings(LearnerSettings):
         description="whether a candidate that names an object that shares a type with others is "
         "lifted to a relation before it is judged (D8)",
     )
+    rephrase: bool = Field(
+        default=True,
+        description="whether the model is asked how to word a candidate that is lifted; else, and "
+        "where its answer is of no use, words are replaced",
+    )
     widen: bool = Field(
         default=True,
         description="whether relations are widened to the widest type that a skill takes (D8)",

@@ -11,6 +11,7 @@ from skillwrapper.invention.questions import (
     BatchInventionQuestion,
     InventionAnswer,
     InventionQuestion,
+    RephrasingQuestion,
 )
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationAnswer, EvaluationQuestion
@@ -29,7 +30,7 @@ from skillwrapper.vlm.parsing import (
 )
 from skillwrapper.vlm.prompt_library import PromptLibrary
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
-from skillwrapper.vlm.requests import RequestBuilder, Slot, allowed_slots, batch_slots
+from skillwrapper.vlm.requests import RequestBuilder, Slot, allowed_slots, batch_slots, slots_of
 from skillwrapper.vlm.settings import AskingSettings
 
 
@@ -91,6 +92,16 @@ class Assistant:
             lambda parsed: bool(parsed.predicates) or not parsed.unusable,
         )
         return InventionAnswer(parsed.predicates[: question.count], parsed.unusable)
+
+    def rephrase_predicate(self, question: RephrasingQuestion) -> InventionAnswer:
+        """A candidate in general terms; may be empty."""
+        names = _parameter_names(slots_of(question.types), {})
+        parsed = self._ask(
+            self._requests.rephrasing(question),
+            lambda reply: parse_predicates(reply, names),
+            lambda parsed: bool(parsed.predicates),
+        )
+        return InventionAnswer(parsed.predicates, parsed.unusable)
 
     def invent_batch(self, question: BatchInventionQuestion) -> InventionAnswer:
         """A whole vocabulary at once (FM Invent); as many as the model gives, at most ``count``."""

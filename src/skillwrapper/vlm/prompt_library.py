@@ -30,6 +30,7 @@ class PromptKind(StrEnum):
     INVENT_UNEXPLAINED = "invent_unexplained"
     INVENT_UNNOTICED = "invent_unnoticed"
     INVENT_BATCH = "invent_batch"
+    REPHRASE = "rephrase"
     EVALUATE = "evaluate"
     SUMMARISE = "summarise"
     NEXT_ACTION = "next_action"
@@ -51,6 +52,7 @@ PROMPT_VARIABLES: Mapping[PromptKind, frozenset[str]] = MappingProxyType(
         PromptKind.INVENT_UNEXPLAINED: _INVENTION | {"unexplained"},
         PromptKind.INVENT_UNNOTICED: _INVENTION,
         PromptKind.INVENT_BATCH: _SCENE | {"slots", "count"},
+        PromptKind.REPHRASE: frozenset({"domain", "candidate", "slots", "wanted"}),
         PromptKind.EVALUATE: _SCENE | {"predicates", "atoms"},
         PromptKind.SUMMARISE: frozenset({"domain", "objects", "predicates", "atoms", "response"}),
         PromptKind.NEXT_ACTION: _SCENE | {"history"},

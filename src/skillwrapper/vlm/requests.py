@@ -7,7 +7,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from skillwrapper.exploration.questions import ProposalQuestion
-from skillwrapper.invention.questions import BatchInventionQuestion, InventionQuestion
+from skillwrapper.invention.questions import (
+    BatchInventionQuestion,
+    InventionQuestion,
+    RephrasingQuestion,
+)
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationQuestion
 from skillwrapper.planning.questions import ActionQuestion
@@ -53,6 +57,11 @@ def allowed_slots(question: InventionQuestion) -> tuple[Slot, ...]:
         Slot(name, max(1, min(2, max(own[name], named[name]))))
         for name in dict.fromkeys(question.types)
     )
+
+
+def slots_of(types: Sequence[str]) -> tuple[Slot, ...]:
+    """Exactly these parameters."""
+    return tuple(Slot(name, times) for name, times in Counter(types).items())
 
 
 def batch_slots(domain: Domain) -> tuple[Slot, ...]:
@@ -106,6 +115,17 @@ class RequestBuilder:
             variables["unexplained"] = question.unexplained
         prompt = self._prompts.render(_INVENTION_PROMPTS[question.kind], **variables)
         return self._request(Role.INVENT, question.domain, prompt, pictures)
+
+    def rephrasing(self, question: RephrasingQuestion) -> ModelRequest:
+        """Ask for a candidate in general terms."""
+        prompt = self._prompts.render(
+            PromptKind.REPHRASE,
+            domain=question.domain,
+            candidate=question.candidate,
+            slots=slots_of(question.types),
+            wanted=question.types,
+        )
+        return self._request(Role.INVENT, question.domain, prompt, ())
 
     def batch_invention(self, question: BatchInventionQuestion) -> ModelRequest:
         """Ask for a whole vocabulary."""
