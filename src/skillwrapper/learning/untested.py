@@ -2,7 +2,7 @@
 
 A precondition is what held before every transition of a cluster. Only a transition outside the
 cluster that meets everything else shows that a condition matters. The other conditions are where
-the most specific and the most general precondition differ (section 10), and so what is
+the most specific and the most general precondition differ (``version_space``), and so what is
 worth trying.
 """
 
