@@ -106,6 +106,12 @@ def test_the_gpt5_profile_errs_as_often_as_was_measured() -> None:
     assert clean == pytest.approx(90, abs=4)
 
 
+def test_the_profile_of_own_predicates_misses_only_what_is_on_a_station() -> None:
+    found, _ = errors_over_all_states(noise_profile("gpt5-own"))
+    assert found.pop("on station") == pytest.approx((0, 166 * 2 / 23), rel=0.2)
+    assert set(found.values()) == {(0, 0)}
+
+
 def test_a_rate_is_the_rate_of_every_class_of_facts() -> None:
     found, _ = errors_over_all_states(noise_profile("0.1"))
     for name, facts in MEASURED_FACTS.items():
