@@ -209,6 +209,14 @@ def test_questions_in_one_iteration_are_bounded() -> None:
     assert len(study.proposer.asked) == 3
 
 
+def test_candidates_tried_in_one_iteration_are_bounded() -> None:
+    for most, asked in ((1, 1), (2, 2)):
+        study = Study(full_hand(), [ROUND], [ROUND], [ROUND], max_trials=most, threshold=1.0)
+        study.inventor.invent()
+        tried = [d for d in study.decisions if d.score is not None]
+        assert (len(tried), len(study.proposer.asked)) == (most, asked)
+
+
 def test_rejected_candidates_are_told_and_not_tried_again() -> None:
     study = Study(full_hand(), [SHINY], [], [SHINY, EMPTY])
     study.inventor.invent()

@@ -79,6 +79,7 @@ class Inventor:
         self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
         self._open: frozenset[Identity] = frozenset()
         self._rounds_left = settings.max_inventions
+        self._trials_left = settings.max_trials
         self._best: tuple[Predicate, ...] = ()
 
     def note_start(self, scene: Scene, start: Observation) -> None:
@@ -108,7 +109,8 @@ class Inventor:
     def invent(self) -> Fit:
         """Invent until nothing is inconsistent or every inconsistency was tried often enough.
 
-        Ends an iteration: the next one may ask ``max_inventions`` questions again.
+        Ends an iteration: the next one may ask ``max_inventions`` questions again, and try
+        ``max_trials`` candidates.
         """
         self._admit_new_data()
         fit = self._mend(ends=self._settings.unnoticed)
@@ -116,6 +118,7 @@ class Inventor:
             fit = self._keep_best(fit)
         self._open = self._causes(fit)
         self._rounds_left = self._settings.max_inventions
+        self._trials_left = self._settings.max_trials
         return fit
 
     def _mend(self, *, ends: bool = False) -> Fit:
@@ -125,7 +128,7 @@ class Inventor:
         taken back, once in a call, and what it explained is asked for again.
         """
         retracted: set[Predicate] = set()
-        while self._rounds_left:
+        while self._rounds_left and self._trials_left > 0:
             self._rounds_left -= 1
             fit = self._fitter.fit(self._vocabulary.active)
             inconsistency = self._next(fit, unnoticed=ends)
@@ -237,6 +240,7 @@ class Inventor:
     ) -> bool:
         """Keep the best of the candidates that resolve the inconsistency, if it is worth it."""
         promising = self._promising(inconsistency, candidates, dormant=dormant)
+        self._trials_left -= len(promising)
         self._fitter.labeller.label(promising)  # all pictures for all candidates in one go
         trials = [self._trial(inconsistency, p, dormant=dormant) for p in promising]
         good = [t for t in trials if not t.shortcoming(self._settings.threshold)]

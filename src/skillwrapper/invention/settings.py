@@ -98,6 +98,13 @@ class LearningSettings(LearnerSettings):
         description="whether the vocabulary of an earlier iteration is taken up again if it "
         "leaves less inconsistent (D9)",
     )
+    max_trials: int = Field(
+        default=150,
+        ge=0,
+        description="upper bound on candidates with which everything is learned anew in one "
+        "iteration; bounds the time that it takes",
+        json_schema_extra={"unit": "predicates"},
+    )
     prune: bool = Field(
         default=True, description="whether superfluous predicates are set dormant (D9)"
     )
