@@ -68,8 +68,11 @@ class Inventor:
         self._settings = settings
         domain, labeller = fitter.recorded.domain, fitter.labeller
         steady = settings.steady and domain.resets_restore_state
-        tolerance, misread = settings.steady_tolerance, labeller.misread
-        self._steadiness = Steadiness(labeller.truth, tolerance, misread) if steady else None
+        self._steadiness = (
+            Steadiness(labeller.truth, settings.steady_tolerance, lambda: labeller.misread)
+            if steady
+            else None
+        )
         self._ripeness = Ripeness(labeller)
         self._screen = Screen(labeller, self._steadiness, settings)
         self._rejections = Rejections(by_cause=settings.reject_by_cause)

@@ -7,7 +7,7 @@ of the light, and not of the state (D8).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -27,11 +27,16 @@ class Steadiness:
     Args:
         truth: the labels of pictures.
         tolerance: the share of starts, 0 to 0.5, that may be read otherwise by mistake.
-        misread: the share of readings that is expected to be wrong; if it is not 0, a predicate
-            varies only if that explains its readings better than misreading does.
+        misread: tells the share of readings that is now expected to be wrong; if it is not 0, a
+            predicate varies only if that explains its readings better than misreading does.
     """
 
-    def __init__(self, truth: TruthSource, tolerance: float = 0.0, misread: float = 0.0) -> None:
+    def __init__(
+        self,
+        truth: TruthSource,
+        tolerance: float = 0.0,
+        misread: Callable[[], float] = lambda: 0.0,
+    ) -> None:
         self._truth = truth
         self._misread = misread
         self._tolerance = tolerance
@@ -61,8 +66,9 @@ class Steadiness:
         labels = self._truth.labels(AtomSpace((predicate,), scene.objects), starts)
         true, false = (labels == TRUE).sum(axis=0), (labels == FALSE).sum(axis=0)
         fewer = np.minimum(true, false)
-        if self._misread:
-            return varies_in_truth(fewer.tolist(), (true + false).tolist(), self._misread)
+        misread = self._misread()
+        if misread:
+            return varies_in_truth(fewer.tolist(), (true + false).tolist(), misread)
         return bool((fewer > self._tolerance * len(starts)).any())
 
 

@@ -62,8 +62,9 @@ class DecodedLabeller(Labeller):
 
     @property
     def misread(self) -> float:
-        """The share of readings that is expected to be wrong."""
-        return self._priors.misread
+        """The share of readings that is expected to be wrong, as estimated so far."""
+        estimated = self.decoding.misread
+        return self._priors.misread if estimated is None else estimated
 
     def doubt(self, number: int) -> float:
         """The probability that something is misread in the pictures of a transition."""

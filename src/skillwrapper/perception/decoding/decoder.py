@@ -45,6 +45,14 @@ class Decoding:
     exception: float
 
     @property
+    def misread(self) -> float | None:
+        """The expected share of readings that are wrong; None if there are no readings."""
+        rates = self.rates.values()
+        wrong = sum(r.false_positive * r.negatives + r.false_negative * r.positives for r in rates)
+        seen = sum(r.negatives + r.positives for r in rates)
+        return wrong / seen if seen else None
+
+    @property
     def dirty(self) -> float:
         """The expected share of pictures in which something is misread; 0 if there are none."""
         odds = np.concatenate([np.zeros(0), *self.dirt])
