@@ -6,4 +6,8 @@ from skillwrapper.learning.faithful import FaithfulLearner
 
 
 class RobustLearner(FaithfulLearner):
-    """As the faithful one."""
+    """Learns as the faithful one does, from labels that were decoded for it.
+
+    Runs decode labels for it by default (``perception.labels``); what is in doubt after that counts
+    as unknown. So with labels without errors both learn the same.
+    """

@@ -1,4 +1,4 @@
-"""Decoding readings: expectation and maximisation over rules, error rates and hidden states."""
+"""Decoding: from readings of pictures along chains to what is likely true in them."""
 
 from __future__ import annotations
 
@@ -11,16 +11,12 @@ from skillwrapper.grounding import Labels
 from skillwrapper.perception.decoding.cells import Cells, ChainCells
 from skillwrapper.perception.decoding.chains import Chain
 from skillwrapper.perception.decoding.conditions import Conditions
-from skillwrapper.perception.decoding.messages import Joint, Messages, Transitions
-from skillwrapper.perception.decoding.odds import Floats, to_log_odds, to_probability
+from skillwrapper.perception.decoding.estimation import Estimation, Problem
+from skillwrapper.perception.decoding.odds import Floats, to_probability
 from skillwrapper.perception.decoding.priors import Priors
-from skillwrapper.perception.decoding.readings import ErrorRates, Readings
-from skillwrapper.perception.decoding.rules import Rules
-from skillwrapper.perception.decoding.successes import idle_roles, needed
+from skillwrapper.perception.decoding.readings import ErrorRates
+from skillwrapper.perception.decoding.rules import Readiness
 from skillwrapper.symbols import Predicate
-
-_STILL = 0.01
-"""Rounds that change no belief by more have settled."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,15 +65,6 @@ class Decoding:
         return np.hstack(columns) if columns else np.zeros((len(self.dirt[chain]), 0))
 
 
-@dataclass
-class _State:
-    """What is believed between two rounds."""
-
-    belief: Floats
-    joint: Joint
-    needed: Floats
-
-
 def decode(
     chains: Sequence[Chain],
     predicates: Sequence[Predicate],
@@ -95,99 +82,77 @@ def decode(
         given: what is decoded already, of other predicates over the same chains; it is taken as
             it is.
     """
-    return _Decoder(chains, predicates, labels, priors or Priors(), given).run()
+    problem = _problem(chains, predicates, labels, priors or Priors(), given)
+    if not problem.cells.variables:
+        return _result(problem, Estimation(problem))
+    bold, shy = (Estimation(problem) for _ in range(2))
+    bold.climb(Readiness.BOLD)
+    shy.climb(Readiness.SHY)
+    return _result(problem, _better(problem, bold, shy))
 
 
-class _Decoder:
-    def __init__(
-        self,
-        chains: Sequence[Chain],
-        predicates: Sequence[Predicate],
-        labels: Sequence[Labels],
-        priors: Priors,
-        given: Decoding | None,
-    ) -> None:
-        self._cells, self._priors = Cells(chains, predicates), priors
-        read = np.concatenate([np.zeros(0, dtype=np.int8), *(x.ravel() for x in labels)])
-        dirt = np.concatenate(given.dirt) if given is not None and given.dirt else None
-        self._readings = Readings(self._cells, read, priors, dirt)
-        context = given.predicates if given is not None else ()
-        self._conditions = Conditions(self._cells, context)
-        self._rules = Rules(self._cells, self._conditions, priors)
-        self._known = [given.beliefs(n) for n in range(len(chains))] if given is not None else []
-        self._context: Floats = np.concatenate([np.zeros(0), *(k.ravel() for k in self._known)])
-        self._messages = Messages(self._cells, to_log_odds(self._context))
-        self._changed = self._context_changes()
+def _problem(
+    chains: Sequence[Chain],
+    predicates: Sequence[Predicate],
+    labels: Sequence[Labels],
+    priors: Priors,
+    given: Decoding | None,
+) -> Problem:
+    cells = Cells(chains, predicates)
+    known = [given.beliefs(number) for number in range(len(chains))] if given is not None else []
+    return Problem(
+        cells=cells,
+        read=np.concatenate([np.zeros(0, dtype=np.int8), *(x.ravel() for x in labels)]),
+        dirt=np.concatenate(given.dirt) if given is not None and given.dirt else None,
+        conditions=Conditions(cells, given.predicates if given is not None else ()),
+        context=np.concatenate([np.zeros(0), *(k.ravel() for k in known)]),
+        changed=_changes(cells, known),
+        priors=priors,
+    )
 
-    def run(self) -> Decoding:
-        state = self._first_state()
-        if not self._cells.variables:
-            return self._result(state)
-        self._rules.learn_rates(state.joint)
-        for phase in (self._learn_rates, self._learn_sure_rules, self._learn_rules):
-            for _ in range(self._priors.rounds):
-                last = state.belief
-                self._believe(state)
-                phase(state)
-                if np.abs(state.belief - last).max(initial=0.0) < _STILL:
-                    break
-        self._believe(state)
-        return self._result(state)
 
-    def _first_state(self) -> _State:
-        belief, cells = self._readings.first_belief, self._cells
-        before, after = belief[cells.before], belief[cells.after]
-        x, y = np.stack([1 - before, before], axis=1), np.stack([1 - after, after], axis=1)
-        return _State(belief, Joint(x[:, :, None] * y[:, None, :]), np.zeros(len(belief)))
+def _changes(cells: Cells, known: Sequence[Floats]) -> Floats | None:
+    """For every edge the number of changes in what is decoded already; None if nothing is."""
+    if not known:
+        return None
+    found = [np.zeros(0)]
+    for part, posterior in zip(cells.parts, known, strict=True):
+        chain = part.chain
+        one, other = posterior[chain.before[chain.moves]], posterior[chain.after[chain.moves]]
+        found.append((np.abs(one - other) > 0.5).sum(axis=1).astype(float))
+    return np.concatenate(found)
 
-    def _believe(self, state: _State) -> None:
-        evidence = self._readings.evidence(state.belief)
-        evidence += self._readings.starting() + state.needed
-        transitions: Transitions = self._rules.transitions()
-        state.belief, state.joint = self._messages.settle(
-            evidence, transitions, self._priors.sweeps
-        )
 
-    def _learn_rates(self, state: _State) -> None:
-        self._rules.learn_rates(state.joint)
+def _better(problem: Problem, bold: Estimation, shy: Estimation) -> Estimation:
+    """What describes the readings in fewer nats, predicate by predicate.
 
-    def _learn_sure_rules(self, state: _State) -> None:
-        self._choose_rules(state, free=False)
+    Estimation climbs to the next hill. Two starts differ in how readily a skill is taken to change
+    its arguments: from the one, a predicate that is often misread seems to flicker; from the other,
+    one that seldom changes seems constant.
+    """
+    predicate, number = problem.cells.predicate, len(problem.cells.predicates)
+    differs = np.bincount(predicate[(shy.belief > 0.5) != (bold.belief > 0.5)], minlength=number)
+    prefers_shy = (differs > 0) & (shy.description() < bold.description())
+    if not prefers_shy.any():
+        return bold
+    merged = Estimation(problem)
+    taken = prefers_shy[predicate]
+    merged.climb_from(np.where(taken, shy.belief, bold.belief))
+    return merged
 
-    def _learn_rules(self, state: _State) -> None:
-        self._choose_rules(state, free=True)
 
-    def _choose_rules(self, state: _State, *, free: bool) -> None:
-        self._readings.learn(state.belief)
-        idle = idle_roles(self._cells, state.joint, self._changed)
-        belief = np.concatenate([state.belief, self._context])
-        self._rules.learn(state.joint, belief, idle, self._readings.misread, free=free)
-        state.needed = needed(self._cells, state.belief, self._readings.base, self._priors)
-
-    def _context_changes(self) -> tuple[Floats, ...]:
-        """For every edge the expected number of changes in what is decoded already."""
-        if not self._known:
-            return ()
-        found = [np.zeros(0)]
-        for part, posterior in zip(self._cells.parts, self._known, strict=True):
-            chain = part.chain
-            one = posterior[chain.before[chain.moves]]
-            other = posterior[chain.after[chain.moves]]
-            found.append((np.abs(one - other) > 0.5).sum(axis=1).astype(float))
-        return (np.concatenate(found),)
-
-    def _result(self, state: _State) -> Decoding:
-        cells, predicates = self._cells, self._cells.predicates
-        nodes = np.cumsum([part.chain.nodes for part in cells.parts])[:-1]
-        misfit = self._readings.misfit(state.belief).tolist()
-        return Decoding(
-            predicates,
-            tuple(dict(_by_predicate(part, state.belief)) for part in cells.parts),
-            tuple(np.split(self._readings.dirt, nodes)),
-            dict(zip(predicates, self._readings.rates(), strict=True)),
-            dict(zip(predicates, misfit, strict=True)),
-            self._rules.exception,
-        )
+def _result(problem: Problem, found: Estimation) -> Decoding:
+    cells, predicates = problem.cells, problem.cells.predicates
+    nodes = np.cumsum([part.chain.nodes for part in cells.parts])[:-1]
+    misfit = found.readings.misfit(found.belief).tolist()
+    return Decoding(
+        predicates,
+        tuple(dict(_by_predicate(part, found.belief)) for part in cells.parts),
+        tuple(np.split(found.readings.dirt, nodes)),
+        dict(zip(predicates, found.readings.rates(), strict=True)),
+        dict(zip(predicates, misfit, strict=True)),
+        found.rules.exception,
+    )
 
 
 def _by_predicate(part: ChainCells, belief: Floats) -> Iterator[tuple[Predicate, Floats]]:

@@ -8,7 +8,7 @@ exceptions, all in nats.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 
@@ -26,6 +26,15 @@ _KT = 0.5
 """Weight of either outcome before any was seen: Krichevsky and Trofimov's coding of rates."""
 _WAYS_TO_CHANGE = math.log(3)
 """To say whether an atom is set, is cleared, or changes at rates of its own."""
+
+
+class Readiness(StrEnum):
+    """How readily a skill is taken to change its arguments, before anything is known."""
+
+    BOLD = "bold"
+    """As likely as not."""
+    SHY = "shy"
+    """No more than anything else."""
 
 
 class RuleKind(StrEnum):
@@ -48,12 +57,14 @@ class Rule:
             atom before.
         condition: number of the condition among the role's candidates; -1 for none.
         exceptions: how often it is expected to be broken.
+        nats: what it costs to name it, and to name its exceptions.
     """
 
     kind: RuleKind
     table: Floats
     condition: int = -1
     exceptions: float = 0.0
+    nats: float = 0.0
 
 
 class Rules:
@@ -83,10 +94,10 @@ class Rules:
                 condition[self._cells.slices[number]] = found[:, rule.condition]
         return Transitions(tables[self._cells.role], condition)
 
-    def learn_rates(self, joint: Joint) -> None:
+    def learn_rates(self, joint: Joint, readiness: Readiness) -> None:
         """Rates of change of every role by itself; seldom, as far as nothing is known."""
         counts = self._counts(joint)
-        self.of_role = [self._seldom(n, counts[n]) for n in range(len(counts))]
+        self.of_role = [self._seldom(n, counts[n], readiness) for n in range(len(counts))]
 
     def learn(
         self,
@@ -117,6 +128,14 @@ class Rules:
         covered = float(counts[ruled].sum()) if ruled else 0.0
         # More exceptions than misreadings would leave no reason to overrule a reading.
         self.exception = min(self._limit, rate(broken, covered, self._limit / 10))
+
+    def description(self) -> Floats:
+        """What the rules of each predicate (predicates,) cost, in nats."""
+        own = [role.predicate for role in self._cells.roles]
+        nats = [rule.nats for rule in self.of_role]
+        size = len(self._cells.predicates)
+        costs = np.bincount(np.array(own, dtype=np.intp), np.array(nats), size)
+        return costs.astype(np.float64)
 
     def _counts(self, joint: Joint) -> Floats:
         """How often (roles, 2, 2) atoms of each role are expected to go from truth to truth."""
@@ -161,7 +180,7 @@ class Rules:
                 (best, *self._conditional(number, joint, belief, named, best[0])),
                 key=lambda pair: pair[0],
             )
-        return best[1]
+        return replace(best[1], nats=best[0])
 
     def _naming(self, role: Role) -> float:
         """What it costs to say that atoms of a role do not persist.
@@ -217,9 +236,11 @@ class Rules:
         }[kind]
         return Rule(kind, np.array([row, row]), exceptions=exceptions)
 
-    def _seldom(self, number: int, counts: Floats) -> Rule:
+    def _seldom(self, number: int, counts: Floats, readiness: Readiness) -> Rule:
         """Rates of change that are as low beforehand as the price of naming a change says."""
-        mean = math.exp(-self._naming(self._cells.roles[number]))
+        bold = readiness is Readiness.BOLD
+        price = self._naming(self._cells.roles[number]) if bold else self._to_name
+        mean = math.exp(-price)
         up = rate(float(counts[0, 1]), float(counts[0].sum()), mean)
         down = rate(float(counts[1, 0]), float(counts[1].sum()), mean)
         row = (up, 1 - down)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -43,7 +41,7 @@ def needed(cells: Cells, belief: Floats, base: Floats, priors: Priors) -> Floats
     return found
 
 
-def idle_roles(cells: Cells, joint: Joint, changed: Sequence[Floats]) -> NDArray[np.bool_]:
+def idle_roles(cells: Cells, joint: Joint, changed: Floats | None) -> NDArray[np.bool_]:
     """Whether a role (roles,) is of a skill that, by all other predicates, rarely does anything.
 
     A skill that succeeds is there to change something; if nothing else changes, this does.
@@ -51,8 +49,8 @@ def idle_roles(cells: Cells, joint: Joint, changed: Sequence[Floats]) -> NDArray
     Args:
         cells: the cells.
         joint: what is believed of them.
-        changed: for every edge (edges,) the expected changes of predicates that are decoded
-            already.
+        changed: for every edge (edges,) the number of changes in what is decoded already; None if
+            nothing is.
     """
     predicates = len(cells.predicates)
     names = sorted({role.skill for role in cells.roles})
@@ -70,8 +68,8 @@ def idle_roles(cells: Cells, joint: Joint, changed: Sequence[Floats]) -> NDArray
         [np.bincount(of_edge, change[:, p], len(names)) for p in range(predicates)], axis=1
     )
     total = by_skill.sum(axis=1)
-    for extra in changed:
-        total = total + np.bincount(of_edge, np.minimum(extra, 1.0), len(names))
+    if changed is not None:
+        total += np.bincount(of_edge, np.minimum(changed, 1.0), len(names))
     rest = total[skill] - by_skill[skill, own]
     speaks = np.array(
         [role.kind is StepKind.SUCCESS and role.others == 0 for role in cells.roles], dtype=bool
