@@ -30,7 +30,7 @@ _QUERY = re.compile(
     re.IGNORECASE,
 )
 _AFTER_A_NAME = re.compile(
-    r"""((?<![A-Za-z])(?:(?:proxy-)?authorization|x-(?:goog-)?api-key|api[_-]?key|apikey|passw(?:or)?d
+    r"""((?<![A-Za-z/])(?:(?:proxy-)?authorization|x-(?:goog-)?api-key|api[_-]?key|apikey|passw(?:or)?d
     |client[_-]?secret|(?:access|auth|api|refresh|session)[_-]?token)["']?\s{0,3}[:=]\s{0,3}["']?)
     (?:(?:bearer|basic|token|digest|negotiate)\s{1,3})?[^\s"',;&{}<>]{4,}""",
     re.IGNORECASE | re.VERBOSE,
