@@ -10,9 +10,11 @@ from rich.table import Table
 from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, print_json, results
+from skillwrapper.errors import ConfigurationError
 from skillwrapper.runs.archive import ArchivedIteration, RunArchive
 from skillwrapper.runs.archive.pictures import PictureStore
 from skillwrapper.runs.archive.records import to_plain
+from skillwrapper.runs.estimated_noise import estimate_profile, print_profile
 from skillwrapper.symbols.describe import describe_operator
 from skillwrapper.symbols.pddl import print_domain
 
@@ -30,12 +32,20 @@ def register(app: typer.Typer) -> None:
 def show(
     run: RunArgument,
     pddl: Annotated[bool, typer.Option("--pddl", help="Print the PDDL domain only.")] = False,
+    noise: Annotated[
+        bool,
+        typer.Option(
+            "--noise-profile", help="Print how pictures are misread, as --noise takes it."
+        ),
+    ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show predicates, operators and certificate of a run."""
     archive = RunArchive.open(run)
     learned = archive.latest()
-    if as_json:
+    if noise:
+        typer.echo(_noise_profile(run, learned), nl=False)
+    elif as_json:
         print_json(_describe(learned))
     elif pddl:
         typer.echo(print_domain(learned.model), nl=False)
@@ -61,6 +71,16 @@ def _describe(learned: ArchivedIteration) -> dict[str, object]:
         "decoding": to_plain(learned.decoding) if learned.decoding else None,
         "unresolved": [to_plain(cause) for cause in learned.unresolved],
     }
+
+
+def _noise_profile(run: Path, learned: ArchivedIteration) -> str:
+    if learned.decoding is None:
+        raise ConfigurationError(
+            f"{run}: its labels were not decoded, so nothing is known of misreading; learn with "
+            "--labels decoded or --learner robust"
+        )
+    source = f"estimated without the truth from {learned.decoding.readings} readings of a run"
+    return print_profile(estimate_profile(learned.decoding, learned.model.predicates, source))
 
 
 def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from skillwrapper.invention.decisions import CandidateDecision, Verdict
@@ -297,7 +298,8 @@ class Inventor:
     def _trial(self, inconsistency: Inconsistency, predicate: Predicate, *, dormant: bool) -> Trial:
         before = self._fitter.fit(self._vocabulary.active)
         fit = self._fitter.fit(self._vocabulary.with_candidate(predicate))
-        return Trial.of(predicate, inconsistency, dormant=dormant, before=before, fit=fit)
+        trial = Trial.of(predicate, inconsistency, dormant=dormant, before=before, fit=fit)
+        return replace(trial, misreadings=self._fitter.labeller.misreadings(predicate))
 
     def _record(
         self,

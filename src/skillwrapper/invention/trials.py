@@ -22,6 +22,7 @@ class Trial:
             transition is decided.
         remains: whether the inconsistency it was asked for remains.
         undecided: whether it is gone only for want of a label (D10).
+        misreadings: how many of its readings are taken for mistakes (D24).
     """
 
     predicate: Predicate
@@ -30,6 +31,7 @@ class Trial:
     score: float | None
     remains: bool
     undecided: bool
+    misreadings: float = 0.0
 
     @classmethod
     def of(
@@ -94,5 +96,10 @@ class Trial:
 
     def rank(self) -> tuple[float, float, int]:
         """Smaller is better: what is left of conditions 1 and 2 and the operators that it takes,
-        what is left of the other kinds, the number of groundings to evaluate."""
-        return self.fit.hard_cost, self.fit.cost, self.predicate.arity
+        what is left of the other kinds, the number of groundings to evaluate.
+
+        A reading that is taken for a mistake counts as much as a transition that is wrong: what
+        tells of places in the picture follows no rule, and seems to be misread.
+        """
+        wrong = self.misreadings
+        return self.fit.hard_cost + wrong, self.fit.cost + wrong, self.predicate.arity

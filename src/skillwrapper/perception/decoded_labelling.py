@@ -66,6 +66,11 @@ class DecodedLabeller(Labeller):
         estimated = self.decoding.misread
         return self._priors.misread if estimated is None else estimated
 
+    def misreadings(self, predicate: Predicate) -> float:
+        """How many readings of a predicate are taken for mistakes, by what they weigh."""
+        self._keep_up()
+        return self._decoding_of(predicate).misfit[predicate] / self._priors.reading_odds
+
     def doubt(self, number: int) -> float:
         """The probability that something is misread in the pictures of a transition."""
         record = self.recorded.records[number]

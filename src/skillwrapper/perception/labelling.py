@@ -80,6 +80,10 @@ class Labeller:
         """The share of readings that is expected to be wrong; 0 if all are taken for right."""
         return 0.0
 
+    def misreadings(self, predicate: Predicate) -> float:
+        """How many readings of a predicate are taken for mistakes, by what they weigh."""
+        return 0.0
+
     def doubt(self, number: int) -> float:
         """The probability that something is misread in the pictures of a transition."""
         return 0.0
