@@ -18,7 +18,7 @@ setup: .venv/.installed
 	@touch $@
 
 demo: setup
-	$(BIN)/skillwrapper learn burger --out $(DEMO_DIR) --seed $(DEMO_SEED) --iterations 10 --budget 30
+	$(BIN)/skillwrapper learn burger --out $(DEMO_DIR) --seed $(DEMO_SEED) --iterations 10
 	$(BIN)/skillwrapper verify $(DEMO_DIR) --curve
 	$(BIN)/skillwrapper render burger --state examples/burger/finished.yaml --seed 7 --out $(DEMO_DIR)/goal.png
 	$(BIN)/skillwrapper solve $(DEMO_DIR) --init-seed 77 --goal $(DEMO_DIR)/goal.png
