@@ -47,14 +47,14 @@ def test_cells_of_a_file(file: Path) -> None:
     assert experiment.source_of(Cell("expert", "burger", 1, "gpt5")) is None
 
 
-@pytest.mark.parametrize("name", ["table1", "noise", "smoke"])
+@pytest.mark.parametrize("name", ["table1", "exploration", "noise", "smoke"])
 def test_shipped_experiments(name: str) -> None:
     experiment = read_experiment(SHIPPED / f"{name}.yaml")
     assert experiment.name == name
     if name in {"table1", "smoke"}:
         assert set(experiment.methods) == set(METHODS)
     if name == "table1":
-        assert len(experiment.cells) == 100
+        assert len(experiment.cells) == 110
 
 
 MISTAKES = (
