@@ -60,8 +60,10 @@ def test_learning_methods_run_anywhere(done: Any) -> None:
     robot, _, data, _ = done
     found = rows(data)
     assert {"ours", "random", "vila"} <= set(found)
+    assert found["random"]["learning_executions"]["mean"] == 24
     for name in ("ours", "random"):
-        assert found[name]["learning_executions"]["mean"] == 24
+        # A planned episode ends where nothing within reach is worth a try.
+        assert 16 < found[name]["learning_executions"]["mean"] <= 24
         if robot == "Shop":
             assert found[name]["recall"]["mean"] == found[name]["vocabulary"]["mean"] == 1.0
         else:
