@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 REPOSITORY = Path(__file__).parents[1]
+EXAMPLE = REPOSITORY / "examples" / "greenhouse"
 
 
 class Installed:
@@ -76,24 +77,40 @@ def test_it_is_not_the_repository_that_answers(installed: Installed) -> None:
     assert not Path(place.strip()).is_relative_to(REPOSITORY)
 
 
-def test_learns_verifies_and_reports(installed: Installed, tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def greenhouse(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example, away from the repository as well."""
+    folder = tmp_path_factory.mktemp("own") / "greenhouse"
+    shutil.copytree(EXAMPLE, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+def test_learns_verifies_and_reports(
+    installed: Installed, greenhouse: Path, tmp_path: Path
+) -> None:
     run = tmp_path / "run"
-    size = ("--iterations", 1, "--budget", 6)
-    installed.skillwrapper("learn", "burger", "--out", run, *size)
+    installed.skillwrapper("learn", greenhouse, "--out", run, "--iterations", 2)
     assert "precision" in installed.skillwrapper("verify", run, "--json")
     installed.skillwrapper("report", run)
     assert (run / "report.html").is_file()
 
 
-def test_runs_an_experiment(installed: Installed, tmp_path: Path) -> None:
-    file = tmp_path / "tiny.yaml"
+def test_learns_a_bundled_domain(installed: Installed, tmp_path: Path) -> None:
+    size = ("--iterations", 1, "--budget", 4)
+    installed.skillwrapper("learn", "burger", "--out", tmp_path / "run", *size)
+    assert (tmp_path / "run" / "model" / "domain.pddl").is_file()
+
+
+def test_runs_an_experiment(installed: Installed, greenhouse: Path, tmp_path: Path) -> None:
+    problems, file = tmp_path / "problems.yaml", tmp_path / "tiny.yaml"
+    few = ("--easy", 1, "--hard", 0, "--impossible", 0)
+    installed.skillwrapper("problems", greenhouse, *few, "--out", problems)
     file.write_text(
-        "name: tiny\nmethods: [random]\ndomains: [burger]\nseeds: [0]\n"
+        f"name: tiny\nmethods: [random]\ndomains: [{greenhouse}]\nseeds: [0]\n"
         "settings: {iterations: 1, exploration: {budget: 4}}\n"
-        "problems: {easy: 1, hard: 0, impossible: 0}\n"
+        "problems: {file: problems.yaml}\n"
     )
-    installed.skillwrapper("experiment", "run", file, "--out", tmp_path / "tiny")
-    table = json.loads(
-        installed.skillwrapper("experiment", "table", tmp_path / "tiny", "--format", "json")
-    )
+    out = tmp_path / "tiny"
+    installed.skillwrapper("experiment", "run", file, "--out", out)
+    table = json.loads(installed.skillwrapper("experiment", "table", out, "--format", "json"))
     assert [method["method"] for method in table["methods"]] == ["random"]
