@@ -29,10 +29,8 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from skillwrapper.vlm.protocol import Usage
+from skillwrapper.usage import Usage
 
 
 class SkillWrapperError(Exception):

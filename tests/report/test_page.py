@@ -9,7 +9,8 @@ from skillwrapper.errors import FileError, RunFolderError
 from skillwrapper.report import ReportSettings, render_report, write_report
 from skillwrapper.runs.archive import RunArchive, make_archive
 from skillwrapper.runs.settings import RunSettings
-from skillwrapper.vlm.protocol import Role, Usage
+from skillwrapper.usage import Usage
+from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, StoredCall
 

@@ -12,9 +12,10 @@ from skillwrapper.errors import ReplyCutOffError
 from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.perception.questions import EvaluationQuestion
 from skillwrapper.symbols import Predicate
+from skillwrapper.usage import Usage
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, Usage
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus

@@ -24,8 +24,9 @@ from skillwrapper.errors import (
     TemporaryProviderError,
     UnusableReplyError,
 )
+from skillwrapper.usage import Usage
 from skillwrapper.vlm.limits import CallBudget, CallLimits, LimitedModel
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, Usage
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role
 from skillwrapper.vlm.recorded_model import RecordedModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
 from skillwrapper.vlm.store import CallStore

@@ -19,7 +19,8 @@ from skillwrapper.embedded.sight import Eye, SceneReader, Sight, Sights, first_s
 from skillwrapper.embedded.spoiling import spoil
 from skillwrapper.embedded.words import Words
 from skillwrapper.errors import ModelUnavailableError
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage
+from skillwrapper.usage import Usage
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest
 from skillwrapper.world.observation import Picture
 
 _ASKED_AGAIN = "\n\nThis is asked again (time "

@@ -8,13 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from skillwrapper.errors import ConfigurationError, LimitReachedError, UnusableReplyError
-from skillwrapper.vlm.protocol import (
-    ModelReply,
-    ModelRequest,
-    ModelWrapper,
-    Usage,
-    VisionLanguageModel,
-)
+from skillwrapper.usage import Usage
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper, VisionLanguageModel
 
 
 @dataclass(frozen=True)

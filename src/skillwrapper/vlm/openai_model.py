@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import openai
 
 from skillwrapper.errors import ConfigurationError, UnusableReplyError
+from skillwrapper.usage import Usage
 from skillwrapper.vlm.openai_connection import Endpoint, open_client
 from skillwrapper.vlm.openai_dialect import INSTEAD, Dialect, Feature, NotUnderstoodError
 from skillwrapper.vlm.openai_errors import ErrorTranslator
@@ -22,7 +23,7 @@ from skillwrapper.vlm.openai_replies import (
 )
 from skillwrapper.vlm.pictures import PictureEncoder
 from skillwrapper.vlm.prices import price_of
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Usage
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest
 
 _LOG = logging.getLogger(__name__)
 _HOTTEST = 2.0

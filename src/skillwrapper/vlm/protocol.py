@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Protocol, runtime_checkable
 
+from skillwrapper.usage import Usage
 from skillwrapper.vlm.answers import answer_of, clean_text
 from skillwrapper.world.observation import Picture
 
@@ -38,23 +39,6 @@ class ModelRequest:
     prompt: str
     pictures: tuple[Picture, ...] = ()
     repetition: int = 0
-
-
-@dataclass(frozen=True)
-class Usage:
-    """What a call took.
-
-    Attributes:
-        input_tokens: tokens of prompt and pictures; None if not told.
-        output_tokens: tokens of the reply, reasoning included; None if not told.
-        cost: in US dollars; None if unknown, which is not zero.
-        seconds: wall time of the call.
-    """
-
-    input_tokens: int | None = None
-    output_tokens: int | None = None
-    cost: float | None = None
-    seconds: float = 0.0
 
 
 @dataclass(frozen=True)

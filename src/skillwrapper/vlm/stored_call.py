@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
-from skillwrapper.vlm.protocol import ModelRequest, Role, Usage
+from skillwrapper.usage import Usage
+from skillwrapper.vlm.protocol import ModelRequest, Role
 
 COLUMNS = (
     "key, question, status, shared, role, iteration, model, parameters, repetition, system,"

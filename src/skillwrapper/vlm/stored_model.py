@@ -9,14 +9,9 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from skillwrapper.errors import UnusableReplyError
+from skillwrapper.usage import Usage
 from skillwrapper.vlm.answers import clean_text
-from skillwrapper.vlm.protocol import (
-    ModelReply,
-    ModelRequest,
-    ModelWrapper,
-    Usage,
-    VisionLanguageModel,
-)
+from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper, VisionLanguageModel
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus, StoredCall, call_key, question_key
 

@@ -13,7 +13,8 @@ from skillwrapper.evaluation.benchmark.call_costs import (
     solving_costs,
 )
 from skillwrapper.runs.archive import RunArchive
-from skillwrapper.vlm.protocol import Role, Usage
+from skillwrapper.usage import Usage
+from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.store import CallStatus, CallStore, StoredCall
 
 
