@@ -1,12 +1,13 @@
 # make setup   .venv with everything in it
 # make demo    the main job, start to end
+# make setup-sim  the models of the simulated arms, into your cache
 # make test    the one check: lint, types, tests
 PYTHON ?= python3
 BIN := .venv/bin
 DEMO_DIR ?= runs/demo
 DEMO_SEED ?= 0
 
-.PHONY: setup demo test lint types tests benchmark clean
+.PHONY: setup setup-sim demo test lint types tests benchmark clean
 
 setup: .venv/.installed
 
@@ -14,8 +15,12 @@ setup: .venv/.installed
 	@bash .ci/system-packages
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "skillwrapper needs Python 3.11 or newer; set PYTHON=")'
 	$(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,sim]'
+	@$(BIN)/skillwrapper setup-sim || echo 'tests of the simulated arms will be skipped'
 	@touch $@
+
+setup-sim: setup
+	$(BIN)/skillwrapper setup-sim
 
 demo: setup
 	$(BIN)/skillwrapper learn burger --out $(DEMO_DIR) --seed $(DEMO_SEED) --iterations 10

@@ -18,6 +18,7 @@ from skillwrapper.cli import (
     problems,
     reporting,
     settings,
+    simulation,
     studies,
     verification,
 )
@@ -45,6 +46,7 @@ _GROUPS = (
     studies,
     model_calls,
     settings,
+    simulation,
 )
 for group in _GROUPS:
     group.register(app)
