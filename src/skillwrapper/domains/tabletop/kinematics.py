@@ -114,7 +114,12 @@ class Arm:
         damped = jacobian @ jacobian.T + _DAMPING**2 * min(1.0, size) * np.eye(6)
         both = np.linalg.solve(damped, np.column_stack([wanted, jacobian]))
         free = np.eye(jacobian.shape[1]) - jacobian.T @ both[:, 1:]
-        pull = _PULL_TO_REST * free @ (self.rest - self._data.qpos[self.addresses])
+        pull = (
+            _PULL_TO_REST
+            * min(1.0, 5 * size)
+            * free
+            @ (self.rest - self._data.qpos[self.addresses])
+        )
         step: Joints = jacobian.T @ both[:, 0] + pull
         return step
 

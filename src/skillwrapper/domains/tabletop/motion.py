@@ -69,6 +69,19 @@ class Motion(ABC):
     def release(self, arm: str) -> None:
         """Open the gripper."""
 
+    @abstractmethod
+    def let_settle(self, thing: str, where: Pose) -> None:
+        """Let a thing that was released come to rest, just under where it was held.
+
+        Args:
+            thing: its name.
+            where: it rests if all went well.
+        """
+
+    def seen(self, pose: Pose) -> Pose:
+        """A pose of a thing as the robot sees it; here as it is."""
+        return pose
+
     def move_to(
         self, arm: str, target: Pose, *, touching: Collection[str] = (), pace: float = 1.0
     ) -> None:
@@ -216,6 +229,10 @@ class KinematicMotion(Motion):
         self.world.held.pop(arm, None)
         self.world.set_fingers(arm, self.world.arms[arm].kind.opened)
         self.world.refresh()
+
+    def let_settle(self, thing: str, where: Pose) -> None:
+        """It is where it shall be."""
+        self.world.put(thing, where)
 
 
 def _spot(pose: Pose) -> str:

@@ -63,16 +63,14 @@ def turn_y(angle: float) -> Matrix:
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
-def grip_down(fingers: float = np.pi / 2) -> Matrix:
+def grip_down(fingers: float = 0.0) -> Matrix:
     """A gripper that points down.
 
     Args:
-        fingers: direction in which they close, as an angle around z from x.
+        fingers: direction of the line on which they close, as an angle around z from x.
     """
-    # The grip's x axis, across which the fingers close along y.
-    x = np.array([np.cos(fingers - np.pi / 2), np.sin(fingers - np.pi / 2), 0.0])
-    z = np.array([0.0, 0.0, -1.0])
-    return np.column_stack([x, np.cross(z, x), z])
+    y, z = np.array([np.cos(fingers), np.sin(fingers), 0.0]), np.array([0.0, 0.0, -1.0])
+    return np.column_stack([np.cross(y, z), y, z])
 
 
 def quaternion_of(rotation: Matrix) -> Vector:

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from skillwrapper.domains.tabletop.extra import mujoco
 
@@ -37,7 +37,7 @@ def lathe(profile: Sequence[tuple[float, float]], sides: int = 40) -> Mesh:
     return vertices, _quads(len(profile), sides)
 
 
-def sweep(path: Sequence[Sequence[float]], radii: Sequence[float], sides: int = 16) -> Mesh:
+def sweep(path: ArrayLike, radii: ArrayLike, sides: int = 16) -> Mesh:
     """A tube along a path in the plane of x and z, closed at both ends.
 
     Args:
@@ -54,7 +54,7 @@ def sweep(path: Sequence[Sequence[float]], radii: Sequence[float], sides: int = 
     angles = 2 * np.pi * np.arange(sides) / sides
     rings = [
         p + r * (np.outer(np.cos(angles), u) + np.outer(np.sin(angles), v))
-        for p, r, u, v in zip(points, radii, across, beside, strict=True)
+        for p, r, u, v in zip(points, np.asarray(radii, float), across, beside, strict=True)
     ]
     first, last, count = len(points) * sides, len(points) * sides + 1, len(points)
     following = (np.arange(sides) + 1) % sides

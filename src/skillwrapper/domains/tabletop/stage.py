@@ -36,10 +36,14 @@ class Lighting:
         return [level * self.strength * part for part in tint]
 
 
+DAYLIGHT = Lighting()
+"""The usual light."""
+
+
 def new_stage(
     cameras: Mapping[str, Camera],
-    lighting: Lighting = Lighting(),
-    table: Colour = (0.60, 0.46, 0.33, 1.0),
+    lighting: Lighting = DAYLIGHT,
+    table: Colour = (0.72, 0.57, 0.41, 1.0),
     table_middle: tuple[float, float] = (0.32, 0.0),
     table_size: tuple[float, float] = (1.0, 1.3),
 ) -> Any:

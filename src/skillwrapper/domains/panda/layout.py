@@ -1,0 +1,64 @@
+"""Where things start on the table."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from skillwrapper.domains.panda.objects import HANDLING
+from skillwrapper.domains.panda.states import PLATE, SPONGE, TEAPOT
+from skillwrapper.domains.tabletop.poses import Pose
+
+_NEAR, _FAR = 0.42, 0.63
+"""How far from the robot things stand, in metres; the arm reaches all of it with some to spare."""
+_SIDE: Final = 0.36
+_GAP: Final = 0.015
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place on the table.
+
+    Attributes:
+        x: metres from the robot.
+        y: metres to its left.
+        yaw: how far a thing there is turned, in radians.
+    """
+
+    x: float
+    y: float
+    yaw: float
+
+    def pose(self, height: float) -> Pose:
+        """The pose of a frame at a height."""
+        return Pose.at(self.x, self.y, height, self.yaw)
+
+
+Layout = Mapping[str, Place]
+"""The place of each thing."""
+
+
+def make_layout(things: Sequence[str], seed: int) -> Layout:
+    """Places of things, with room around each for the gripper; a function of its arguments."""
+    chance = random.Random(f"panda layout {seed}")
+    while True:
+        places = {thing: _draw(thing, chance) for thing in things}
+        if all(_apart(places, a, b) for a, b in itertools.combinations(things, 2)):
+            return places
+
+
+def _draw(thing: str, chance: random.Random) -> Place:
+    x, y = chance.uniform(_NEAR, _FAR), chance.uniform(-_SIDE, _SIDE)
+    # Turned away from the robot a teapot's spout would be out of sight, and out of its reach.
+    widest = {TEAPOT: math.pi, SPONGE: math.pi / 2, PLATE: 0.0}.get(thing, math.pi)
+    return Place(x, y, chance.uniform(-widest, widest))
+
+
+def _apart(places: Layout, first: str, second: str) -> bool:
+    a, b = places[first], places[second]
+    needed = HANDLING[first].radius + HANDLING[second].radius + _GAP
+    return math.hypot(a.x - b.x, a.y - b.y) >= needed
