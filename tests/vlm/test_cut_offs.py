@@ -117,6 +117,9 @@ def test_once_the_limit_is_raised_only_the_last_question_is_asked_anew(
     with CallStore(tmp_path / "calls.sqlite") as store:
         with pytest.raises(ReplyCutOffError):
             propose(StoredModel(model, store), burger)
+        model.limit = 4096
+        assert propose(StoredModel(model, store), burger) == 1
+        model.limit = None
         assert propose(StoredModel(model, store), burger) == 1
     assert len(model.requests) == 3
 

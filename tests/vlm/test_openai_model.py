@@ -14,6 +14,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
+import numpy as np
 import pytest
 from PIL import Image
 from scripted import ScriptedModel
@@ -324,6 +325,10 @@ def test_large_pictures_are_scaled_down_and_small_ones_left_alone() -> None:
     assert scaled_down(png((40, 20)), 40) == png((40, 20))
     with Image.open(io.BytesIO(scaled_down(png((400, 200)), 100))) as image:
         assert image.size == (100, 50)
+    file = io.BytesIO()
+    Image.fromarray(np.full((200, 400), 25_000, np.uint16)).save(file, "PNG")
+    with Image.open(io.BytesIO(scaled_down(file.getvalue(), 100))) as image:
+        assert image.getpixel((50, 25)) == (97, 97, 97)  # 16-bit grey keeps its upper bits
     encoder = PictureEncoder(largest=None, memory=1)
     first, second = Picture(png((30, 30))), Picture(png((50, 50)))
     urls = [encoder.data_url(picture) for picture in (first, second, first)]

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,7 @@ from skillwrapper.errors import (
     TemporaryProviderError,
     UnusableReplyError,
 )
+from skillwrapper.redaction import Redactor
 from skillwrapper.usage import Usage
 from skillwrapper.vlm.limits import CallBudget, CallLimits, LimitedModel
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role
@@ -222,6 +224,17 @@ def test_the_same_question_in_flight_twice_is_asked_once(store: CallStore) -> No
     assert len(behind.requests) == 1
 
 
+def test_secrets_are_taken_out_of_all_that_is_kept_and_served(store: CallStore) -> None:
+    """Templates and descriptions come from files in which keys may stand."""
+    redactor = Redactor.knowing((), {"ROBOT_TOKEN": "planted-token"})
+    model = StoredModel(ScriptedModel(lambda _: "I keep planted-token"), store, redactor=redactor)
+    asked = replace(request("log in with planted-token"), system="sk-abcdefghijklmnop")
+    first, second = (model.complete(asked).text for _ in range(2))
+    (kept,) = store.calls()
+    assert first == second == kept.reply == "I keep [key]"
+    assert (kept.system, kept.prompt) == ("[key]", "log in with [key]")
+
+
 def test_two_stores_can_use_one_file(tmp_path: Path) -> None:
     path = tmp_path / "shared.sqlite"
     with CallStore(path) as one, CallStore(path) as two:
@@ -234,6 +247,7 @@ def test_two_stores_can_use_one_file(tmp_path: Path) -> None:
 
 _WRITER = """
 import sys
+from dataclasses import replace
 from pathlib import Path
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role
 from skillwrapper.vlm.store import CallStore

@@ -97,8 +97,8 @@ def render(
     else:
         for outcome_line in outcomes:
             done = "done" if outcome_line["success"] else "failed"
-            results().print(f"{outcome_line['skill']}: {done}", markup=False)
-        results().print(f"wrote {out}", markup=False)
+            results().print(f"{outcome_line['skill']}: {done}")
+        results().print(f"wrote {out}")
 
 
 def _set_state(environment: Environment, text: str, seed: int) -> Observation:
@@ -158,23 +158,23 @@ def _print_domain(domain: Domain, found: Mapping[str, Any]) -> None:
     console.print("\ntypes", style="bold")
     for name in domain.types.names:
         parents = ", ".join(domain.types.parents[name])
-        console.print(f"  {name}{f' (a {parents})' if parents else ''}", markup=False)
+        console.print(f"  {name}{f' (a {parents})' if parents else ''}")
     console.print("\nobjects", style="bold")
     for name, types in found["objects"].items():
-        console.print(f"  {name}: {', '.join(types)}", markup=False)
+        console.print(f"  {name}: {', '.join(types)}")
     console.print("\nskills", style="bold")
     for skill in domain.skills:
         parameters = ", ".join(f"{p.name}: {p.type}" for p in skill.parameters)
-        console.print(f"  {skill.name}({parameters})  {skill.description}", markup=False)
+        console.print(f"  {skill.name}({parameters})  {skill.description}")
     console.print("\nscenes", style="bold")
     counts = found.get("abstract_states", {})
     for name, objects in found["scenes"].items():
         states = f"  ({counts[name]} reachable states)" if name in counts else ""
-        console.print(f"  {name}: {', '.join(objects)}{states}", markup=False)
-    console.print(f"\nskill instances: {found['skill_instances']}", markup=False)
+        console.print(f"  {name}: {', '.join(objects)}{states}")
+    console.print(f"\nskill instances: {found['skill_instances']}")
     if found["robot"]:
-        console.print(f"capabilities: {', '.join(found['capabilities']) or 'none'}", markup=False)
+        console.print(f"capabilities: {', '.join(found['capabilities']) or 'none'}")
     else:
-        console.print("no robot: its skills cannot be executed", markup=False)
+        console.print("no robot: its skills cannot be executed")
     if "kept_rules_of" in found:
-        console.print(f"every rule of a {found['kept_rules_of']} is kept", markup=False)
+        console.print(f"every rule of a {found['kept_rules_of']} is kept")

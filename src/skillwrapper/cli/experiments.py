@@ -83,7 +83,7 @@ def run(
         print_json({"out": str(out), **report.to_json(), "failed": errors})
     else:
         _print_report(report, table_console())
-        results().print(f"again:  skillwrapper experiment table {out}", markup=False)
+        results().print(f"again:  skillwrapper experiment table {out}")
     if failed:
         raise typer.Exit(1)
 
@@ -126,7 +126,7 @@ def plot(
         print_json({"plots": [str(path) for path in written]})
     else:
         for path in written:
-            results().print(str(path), markup=False)
+            results().print(str(path))
 
 
 def _command(file: Path, out: Path, workers: int, ray: str | None) -> str:
@@ -181,8 +181,8 @@ def _print_report(report: ExperimentSummary, console: Console) -> None:
             shown.add_row(*row)
         console.print(shown)
         if content.note:
-            console.print(content.note, markup=False)
+            console.print(content.note)
         console.print("")
     for label, text in report.made:
-        console.print(f"{label}: {text}", markup=False)
-    console.print(report.note, markup=False)
+        console.print(f"{label}: {text}")
+    console.print(report.note)

@@ -104,7 +104,7 @@ def _print_result(out: Path, result: LearningResult) -> None:
     learned = f"{figures.predicates} predicates, {figures.operators} operators"
     console.print(Text.assemble((learned, "bold"), f" from {figures.executions} executions"))
     for predicate in result.fit.predicates:
-        console.print(f"  {predicate.signature}: {predicate.semantics}", markup=False)
+        console.print(f"  {predicate.signature}: {predicate.semantics}")
     broken = figures.lemma1_violations + figures.theorem1_violations
     colour = "green" if broken == 0 and not figures.inconsistencies else "yellow"
     console.print(
@@ -113,5 +113,5 @@ def _print_result(out: Path, result: LearningResult) -> None:
         f"inconsistencies left",
         style=colour,
     )
-    console.print(f"look at it with:  skillwrapper show {out}", markup=False)
-    console.print(f"check it with:    skillwrapper verify {out}", markup=False)
+    console.print(f"look at it with:  skillwrapper show {out}")
+    console.print(f"check it with:    skillwrapper verify {out}")

@@ -172,14 +172,12 @@ def _print_call(call: StoredCall, full: bool) -> None:
     console.print(
         f"{call.iteration or '-':>3}  {call.role:9}  {call.status:8}  {call.usage.seconds:6.1f} s  "
         f"{source}  {call.key[:12]}",
-        markup=False,
     )
     if full:
         pictures = json.dumps(call.pictures)
         console.print(
             f"--- system\n{call.system}\n--- prompt\n{call.prompt}\n--- pictures {pictures}\n"
             f"--- reply\n{call.reply}\n",
-            markup=False,
         )
 
 

@@ -87,19 +87,19 @@ def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:
     console = results()
     console.print("predicates", style="bold")
     for predicate in learned.model.predicates:
-        console.print(f"  {predicate.signature}", style="cyan", markup=False)
-        console.print(f"      {predicate.semantics}", markup=False)
+        console.print(f"  {predicate.signature}", style="cyan")
+        console.print(f"      {predicate.semantics}")
         agreement = learned.agreement(predicate)
         if agreement is not None:
-            console.print(f"      agreement of the votes: {agreement:.1%}", markup=False)
+            console.print(f"      agreement of the votes: {agreement:.1%}")
         rates = learned.decoding.rates_of(predicate.name) if learned.decoding else None
         if rates is not None:
             wrong = f"{rates.false_positive:.1%} of false, {rates.false_negative:.1%} of true atoms"
-            console.print(f"      misread, as estimated: {wrong}", markup=False)
+            console.print(f"      misread, as estimated: {wrong}")
     console.print("\noperators", style="bold")
     for operator in learned.model.operators:
         for line in describe_operator(operator, learned.untested(operator)).splitlines():
-            console.print(f"  {line}", markup=False)
+            console.print(f"  {line}")
         console.print("")
     _print_certificate(learned)
     _print_decoding(learned, pictures)
@@ -122,7 +122,6 @@ def _print_certificate(learned: ArchivedIteration) -> None:
         console.print(
             f"  {violation.statement}: {violation.skill}, transition {violation.transition}: "
             f"{violation.reason}",
-            markup=False,
         )
 
 
@@ -134,20 +133,19 @@ def _print_decoding(learned: ArchivedIteration, pictures: PictureStore) -> None:
     console.print(
         f"  of {decoding.readings} readings {len(decoding.overruled)} are taken for mistakes; "
         f"{decoding.in_doubt} atoms are in doubt",
-        markup=False,
     )
     for one in decoding.overruled[:_MOST_OVERRULED]:
         where = ", ".join(str(pictures.path(sha)) for sha in one.pictures)
         read = "true" if one.read else "false"
         chance = f"true with probability {one.posterior:.2f}"
-        console.print(f"    {one.atom}: read as {read}, {chance}: {where}", markup=False)
+        console.print(f"    {one.atom}: read as {read}, {chance}: {where}")
 
 
 def _print_unresolved(learned: ArchivedIteration, pictures: PictureStore) -> None:
     console = results()
     for cause in learned.unresolved:
         who = " / ".join(w.instance for w in cause.witnesses)
-        console.print(f"  unresolved ({cause.kind}): {who}", markup=False)
+        console.print(f"  unresolved ({cause.kind}): {who}")
         for witness in cause.witnesses:
             for sha in witness.before:
-                console.print(f"    {witness.instance}: {pictures.path(sha)}", markup=False)
+                console.print(f"    {witness.instance}: {pictures.path(sha)}")

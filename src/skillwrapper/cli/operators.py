@@ -77,12 +77,11 @@ def _print(fit: Fit, certificate: Certificate, untested: _Untested, out: Path) -
     console = results()
     for learned in fit.operators:
         name = learned.operator.name
-        console.print(describe_operator(learned.operator, untested[name]), markup=False)
+        console.print(describe_operator(learned.operator, untested[name]))
         console.print("")
     console.print(
         f"{certificate.transitions} transitions, {certificate.decided} decided, violations: "
         f"{certificate.count('lemma1')} of Lemma 1, {certificate.count('theorem1')} of Theorem 1; "
         f"{len(fit.inconsistencies)} inconsistencies",
-        markup=False,
     )
-    console.print(f"written: {out / 'domain.pddl'} and what belongs to it", markup=False)
+    console.print(f"written: {out / 'domain.pddl'} and what belongs to it")

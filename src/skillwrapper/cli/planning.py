@@ -149,12 +149,12 @@ def _describe(found: PlanningResult) -> dict[str, object]:
 
 def _print_plans(found: PlanningResult) -> None:
     console = results()
-    console.print(f"{found.status} in {found.seconds:.2f} s", style="bold", markup=False)
+    console.print(f"{found.status} in {found.seconds:.2f} s", style="bold")
     for number, skills in enumerate(found.plans, start=1):
         steps = ", ".join(map(str, skills)) or "nothing to do"
-        console.print(f"{number:3d}. {steps}", markup=False)
+        console.print(f"{number:3d}. {steps}")
     if found.status is PlanningStatus.ERROR:
-        messages().print(found.log, markup=False)
+        messages().print(found.log)
 
 
 def _print_solution(found: PlanningResult, report: ExecutionReport, gif: Path) -> None:
@@ -162,14 +162,14 @@ def _print_solution(found: PlanningResult, report: ExecutionReport, gif: Path) -
     if not report.attempts:
         console.print(f"{found.status}: there is nothing to execute", style="yellow")
         if found.status is PlanningStatus.ERROR:
-            messages().print(found.cause, markup=False)
+            messages().print(found.cause)
         return
     last = report.attempts[-1]
     for instance, outcome in zip(last.plan, last.outcomes, strict=False):
         done = "done" if outcome.success else f"failed: {outcome.message}"
-        console.print(f"  {instance}: {done}", markup=False)
+        console.print(f"  {instance}: {done}")
     if report.solved:
         console.print(f"solved with plan {report.budget}", style="green")
     else:
         console.print(f"not solved with {len(report.attempts)} plans", style="red")
-    console.print(f"animation: {gif}", markup=False)
+    console.print(f"animation: {gif}")

@@ -61,4 +61,4 @@ def _print(made: ProblemSet, out: Path | None) -> None:
     console = results()
     console.print(table)
     if out is not None:
-        console.print(f"wrote {out}", markup=False)
+        console.print(f"wrote {out}")

@@ -19,6 +19,7 @@ from skillwrapper.runs.events import (
     RunEvent,
     RunStarted,
     SkillExecuted,
+    SkillRecalled,
 )
 from skillwrapper.runs.figures import RunFigures
 from skillwrapper.runs.model_sessions import CallCounter
@@ -94,14 +95,14 @@ class RunProgress:
             case IterationStarted():
                 status.total, status.planned = event.iterations, event.budget
                 status.executed = status.succeeded = 0
-            case SkillExecuted():
+            case SkillExecuted() | SkillRecalled():
                 self._count(event)
             case PredicateDecided():
                 status.decisions.append(_describe(event.decision))
             case IterationFinished():
                 self._console.print(self._iteration_line(event.result.figures), soft_wrap=True)
 
-    def _count(self, event: SkillExecuted) -> None:
+    def _count(self, event: SkillExecuted | SkillRecalled) -> None:
         status, done = self._status, event.transition
         status.executed += 1
         status.succeeded += int(done.success)

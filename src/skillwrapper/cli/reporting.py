@@ -39,7 +39,7 @@ def report(
     if as_json:
         print_json({"report": str(written), "bytes": written.stat().st_size})
     else:
-        results().print(f"wrote {written}", markup=False)
+        results().print(f"wrote {written}")
 
 
 def _write(run: Path, out: Path | None, settings: ReportSettings) -> Path:

@@ -130,5 +130,5 @@ def _print(table: StudyTable) -> None:
         shown.add_row(*row)
     console.print(shown)
     for note in table.notes:
-        console.print(note, style="dim", markup=False)
+        console.print(note, style="dim")
     console.print("")

@@ -66,7 +66,7 @@ def read_records(
     Raises:
         FileError: if another line is something else; names the file and the line.
     """
-    lines = enumerate(_whole_lines(path)[first - 1 : last], start=first)
+    lines = enumerate(whole_lines(path)[first - 1 : last], start=first)
     return [parse_record(line, model, f"{path}:{number}") for number, line in lines]
 
 
@@ -91,7 +91,7 @@ def read_lines(path: Path) -> list[dict[str, Any]]:
         FileError: if a line is no JSON object.
     """
     found = []
-    for number, line in enumerate(_whole_lines(path), start=1):
+    for number, line in enumerate(whole_lines(path), start=1):
         try:
             entry = json.loads(line)
         except (ValueError, RecursionError) as error:
@@ -102,8 +102,12 @@ def read_lines(path: Path) -> list[dict[str, Any]]:
     return found
 
 
-def _whole_lines(path: Path) -> list[bytes]:
-    """The lines that were written to their end."""
+def whole_lines(path: Path) -> list[bytes]:
+    """The lines of a file that were written to their end; none if there is no file.
+
+    Raises:
+        FileError: if it cannot be read.
+    """
     try:
         data = path.read_bytes()
     except FileNotFoundError:

@@ -50,13 +50,16 @@ def json_text(content: object) -> str:
     return json.dumps(content, indent=1, sort_keys=True) + "\n"
 
 
-def append_line(path: Path, entry: Mapping[str, Any], *, durable: bool = True) -> None:
+def append_line(path: Path, entry: Mapping[str, Any], *, durable: bool = True) -> int:
     """Append a JSON line in a single write; a line before it that a crash cut short is removed.
 
     Args:
         path: the file; made if it does not exist.
         entry: plain data.
         durable: whether to wait until it is on the disk.
+
+    Returns:
+        How many bytes were appended.
 
     Raises:
         FileError: if the file cannot be written.
@@ -73,11 +76,19 @@ def append_line(path: Path, entry: Mapping[str, Any], *, durable: bool = True) -
                 os.fsync(file.fileno())
         if durable and is_new:
             _sync_folder(path.parent)
+    return len(line)
 
 
 def is_leftover(path: Path) -> bool:
     """Whether a file is what a crash left of writing another one."""
     return path.name.startswith(".") and path.suffix == _TEMPORARY
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove what crashes left of writing files below a folder in which nobody else writes."""
+    with contextlib.suppress(OSError):
+        for leftover in filter(is_leftover, folder.rglob(".*")):
+            leftover.unlink()
 
 
 def _is_written_through(path: Path, status: os.stat_result | None) -> bool:

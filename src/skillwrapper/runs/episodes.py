@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from skillwrapper.errors import RobotError, RunFolderError
 from skillwrapper.exploration.explorer import NextSkill
-from skillwrapper.runs.events import EpisodeStarted, Observer, SkillExecuted
+from skillwrapper.runs.events import EpisodeStarted, Observer, SkillExecuted, SkillRecalled
 from skillwrapper.world.capabilities import Replayable, supports
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
@@ -55,7 +55,7 @@ class EpisodeRunner:
 
     Args:
         environment: the robot or simulator.
-        tell: told of what is new.
+        tell: told of what is executed and recalled.
     """
 
     def __init__(self, environment: Environment, tell: Observer) -> None:
@@ -98,8 +98,10 @@ class EpisodeRunner:
         """
         done = EpisodeSoFar(recorded.scene, recorded.seed, recorded.start)
         for transition in recorded.transitions:
-            _check_choice(number, transition.instance, choose(done).instance)
+            chosen = choose(done)
+            _check_choice(number, transition.instance, chosen.instance)
             done.transitions.append(transition)
+            self._tell(SkillRecalled(number, transition, chosen.reason))
         following = choose(done)
         if following.instance is not None and supports(self._environment, Replayable):
             self._repeat(recorded, scene)

@@ -91,6 +91,19 @@ class SkillExecuted(RunEvent):
 
 
 @dataclass(frozen=True)
+class SkillRecalled(RunEvent):
+    """An execution that was recorded before has become part of the run.
+
+    Attributes:
+        transition: what came of it.
+        reason: why it was run, for people.
+    """
+
+    transition: Transition
+    reason: str = ""
+
+
+@dataclass(frozen=True)
 class PredicateDecided(RunEvent):
     """It was decided on a predicate."""
 

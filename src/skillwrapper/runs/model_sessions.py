@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from skillwrapper.redaction import Redactor
 from skillwrapper.runs.models import (
     EMBEDDED,
     ENDPOINT,
@@ -93,12 +95,14 @@ class CallKeeping:
         counter: counts them, against the limits, and knows the iteration.
         store: of the run; None to keep nothing.
         shared: store of several runs; None for none.
+        redactor: takes secrets out of what the stores keep.
     """
 
     settings: CallSettings
     counter: CallCounter
     store: CallStore | None = None
     shared: CallStore | None = None
+    redactor: Redactor = field(default_factory=Redactor)
 
     def around(self, model: VisionLanguageModel) -> VisionLanguageModel:
         """The model with its calls limited, kept and repeated.
@@ -108,9 +112,12 @@ class CallKeeping:
         """
         kept: VisionLanguageModel = LimitedModel(model, self.counter.budget)
         if self.store is not None:
-            kept = StoredModel(kept, self.store, self.shared, lambda: self.counter.iteration)
+            kept = StoredModel(kept, self.store, self.shared, self._iteration, self.redactor)
         budget = self.counter.budget
         return RetryingModel(kept, self.settings.retries, lambda: budget.seconds_left)
+
+    def _iteration(self) -> int | None:
+        return self.counter.iteration
 
 
 class _CountedModel(ModelWrapper):
@@ -154,7 +161,7 @@ def open_session(
         opened = _open_all(settings, model, resources)
         kept = {name: m for name, m in opened.items() if _is_kept(name, m, learning)}
         if kept:
-            keeping = _open_stores(settings.calls, store, counter, resources)
+            keeping = _open_stores(settings, store, counter, resources)
             opened |= {name: keeping.around(m) for name, m in kept.items()}
         counted = {name: _CountedModel(m, counter) for name, m in opened.items()}
         by_role = {role: counted[_name_of(role, settings, model)] for role in Role}
@@ -189,11 +196,12 @@ def _is_kept(name: str, model: VisionLanguageModel, learning: bool) -> bool:
 
 
 def _open_stores(
-    settings: CallSettings, store: Path | None, counter: CallCounter, resources: ExitStack
+    settings: RunSettings, store: Path | None, counter: CallCounter, resources: ExitStack
 ) -> CallKeeping:
     if store is None:
-        return CallKeeping(settings, counter)
+        return CallKeeping(settings.calls, counter)
     own = resources.enter_context(CallStore(store))
-    path = settings.shared_store
+    path = settings.calls.shared_store
     shared = resources.enter_context(CallStore(path)) if path else None
-    return CallKeeping(settings, counter, own, shared)
+    redactor = Redactor.knowing((settings.model.base_url or "",), os.environ)
+    return CallKeeping(settings.calls, counter, own, shared, redactor)

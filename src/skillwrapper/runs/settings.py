@@ -26,6 +26,7 @@ FREE: Final = (
     "model.base_url",
     "model.asking.parallel",
     "model.endpoint.timeout",
+    "model.endpoint.max_output_tokens",
     "calls",
 )
 """Settings that may differ when a run is resumed: they decide how far and how fast it goes, not

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections import Counter
 
 from skillwrapper.errors import ReplyCutOffError
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, Role, VisionLanguageModel
+from skillwrapper.vlm.protocol import (
+    OUTPUT_LIMIT,
+    ModelReply,
+    ModelRequest,
+    Role,
+    VisionLanguageModel,
+)
 
 CUT_OFF_PROBLEM = "it was cut off at the output limit; think less and answer in fewer words"
 """What the model is told when it is asked again."""
-_LIMIT = "max_output_tokens"
 
 
 class CutOffs:
@@ -33,7 +38,7 @@ class CutOffs:
 
 
 def _advice(model: VisionLanguageModel, role: Role, reply: ModelReply) -> str:
-    limit, tokens = model.parameters.get(_LIMIT), reply.usage.output_tokens
+    limit, tokens = model.parameters.get(OUTPUT_LIMIT), reply.usage.output_tokens
     after = f" after {tokens} tokens" if tokens is not None else ""
     raise_it = f"raise --max-output-tokens, now {limit}" if limit else "set --max-output-tokens"
     return (

@@ -23,7 +23,7 @@ from skillwrapper.vlm.openai_replies import (
 )
 from skillwrapper.vlm.pictures import PictureEncoder
 from skillwrapper.vlm.prices import price_of
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest
+from skillwrapper.vlm.protocol import OUTPUT_LIMIT, ModelReply, ModelRequest
 
 _LOG = logging.getLogger(__name__)
 _HOTTEST = 2.0
@@ -111,7 +111,7 @@ class OpenAIModel:
         settings = {
             "temperature": self._settings.temperature,
             "reasoning_effort": self._settings.reasoning_effort,
-            "max_output_tokens": self._settings.max_output_tokens,
+            OUTPUT_LIMIT: self._settings.max_output_tokens,
             "image_size": self._settings.image_size,
         }
         return {name: value for name, value in settings.items() if value is not None}

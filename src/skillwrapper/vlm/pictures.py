@@ -10,7 +10,7 @@ from collections import OrderedDict
 from PIL import Image
 
 from skillwrapper.world.observation import Picture
-from skillwrapper.world.pictures import encode_png
+from skillwrapper.world.pictures import encode_png, upright
 
 
 class PictureEncoder:
@@ -42,10 +42,11 @@ class PictureEncoder:
 
 
 def scaled_down(png: bytes, largest: int) -> bytes:
-    """The picture with its longer side at most ``largest`` pixels."""
+    """The picture with its longer side at most ``largest`` pixels, as ``world`` would show it."""
     with Image.open(io.BytesIO(png)) as image:
         if max(image.size) <= largest:
             return png
-        factor = largest / max(image.size)
-        size = (max(1, round(image.width * factor)), max(1, round(image.height * factor)))
-        return encode_png(image.convert("RGB").resize(size, Image.Resampling.LANCZOS))
+        shown = upright(image)
+    factor = largest / max(shown.size)
+    size = (max(1, round(shown.width * factor)), max(1, round(shown.height * factor)))
+    return encode_png(shown.resize(size, Image.Resampling.LANCZOS))

@@ -11,6 +11,9 @@ from skillwrapper.usage import Usage
 from skillwrapper.vlm.answers import answer_of, clean_text
 from skillwrapper.world.observation import Picture
 
+OUTPUT_LIMIT = "max_output_tokens"
+"""The parameter of a model that cuts replies off, and changes nothing else of them."""
+
 
 class Role(StrEnum):
     """What a call is for; every role may have a model of its own."""

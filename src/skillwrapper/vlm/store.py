@@ -160,7 +160,10 @@ class CallStore:
             served = connection.execute(
                 "SELECT role, iteration, SUM(times) FROM served GROUP BY role, iteration"
             ).fetchall()
-        return join_totals(made, served)
+            taken_over = connection.execute(
+                "SELECT role, iteration, COUNT(*) FROM calls WHERE shared GROUP BY role, iteration"
+            ).fetchall()
+        return join_totals(made, served, taken_over)
 
     def flush(self) -> None:
         """Write what was gathered."""

@@ -10,7 +10,7 @@ from enum import StrEnum
 from typing import Any
 
 from skillwrapper.usage import Usage
-from skillwrapper.vlm.protocol import ModelRequest, Role
+from skillwrapper.vlm.protocol import OUTPUT_LIMIT, ModelRequest, Role
 
 COLUMNS = (
     "key, question, status, shared, role, iteration, model, parameters, repetition, system,"
@@ -89,7 +89,9 @@ class CallTotals:
         role: what the calls were for.
         iteration: of the run; None outside of the iterations.
         made: calls that a model was asked.
-        served: questions that were answered from a store instead.
+        served: how often questions were answered from a store instead; those that a run which goes
+            on meets again count too.
+        taken_over: calls whose replies other runs had got; part of what was served.
         failed: calls that were made and brought nothing usable.
         input_tokens: of all calls made; None if any is unknown.
         output_tokens: of all calls made; None if any is unknown.
@@ -106,6 +108,12 @@ class CallTotals:
     output_tokens: int | None = 0
     cost: float | None = 0.0
     seconds: float = 0.0
+    taken_over: int = 0
+
+    @property
+    def asked(self) -> int:
+        """Calls that were needed, whoever made them; the same if the run was interrupted."""
+        return self.made + self.taken_over
 
 
 def question_key(request: ModelRequest) -> str:
@@ -123,10 +131,13 @@ def question_key(request: ModelRequest) -> str:
 def call_key(
     model: str, parameters: Mapping[str, str | int | float | bool], request: ModelRequest
 ) -> str:
-    """SHA-256 of what is asked, of whom, and with which settings."""
+    """SHA-256 of what is asked, of whom, and with which settings that change what an answer says.
+
+    A limit on the output does not: an answer that it does not reach is the same under a higher one.
+    """
     parts = {
         "model": model,
-        "parameters": dict(parameters),
+        "parameters": {n: value for n, value in parameters.items() if n != OUTPUT_LIMIT},
         "question": question_key(request),
     }
     return _digest(parts)
@@ -178,17 +189,20 @@ def call_of(row: Sequence[Any]) -> StoredCall:
 
 
 def join_totals(
-    made: Iterable[Sequence[Any]], served: Iterable[Sequence[Any]]
+    made: Iterable[Sequence[Any]],
+    served: Iterable[Sequence[Any]],
+    taken_over: Iterable[Sequence[Any]],
 ) -> tuple[CallTotals, ...]:
-    """Totals by iteration and role, from what was added up of calls made and of calls served."""
+    """Totals by iteration and role, from what was added up of each kind of call."""
     totals: dict[tuple[str, int | None], CallTotals] = {}
     for role, iteration, calls, failed, tokens_in, tokens_out, cost, seconds in made:
         totals[role, iteration] = CallTotals(
             Role(role), iteration, calls, 0, failed, tokens_in, tokens_out, cost, seconds
         )
-    for role, iteration, times in served:
-        known = totals.get((role, iteration), CallTotals(Role(role), iteration))
-        totals[role, iteration] = replace(known, served=times)
+    for name, counts in (("served", served), ("taken_over", taken_over)):
+        for role, iteration, times in counts:
+            known = totals.get((role, iteration), CallTotals(Role(role), iteration))
+            totals[role, iteration] = replace(known, **{name: times})
     roles = list(Role)
     return tuple(sorted(totals.values(), key=lambda t: (t.iteration or 0, roles.index(t.role))))
 

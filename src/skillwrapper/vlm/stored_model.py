@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from skillwrapper.errors import UnusableReplyError
+from skillwrapper.redaction import Redactor
 from skillwrapper.usage import Usage
 from skillwrapper.vlm.answers import clean_text
 from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper, VisionLanguageModel
@@ -24,6 +25,7 @@ class StoredModel(ModelWrapper):
         store: of the run; every call is recorded here.
         shared: a store that several runs share, if any; asked second, and told what is new.
         iteration: tells the present iteration of the run.
+        redactor: takes secrets out of all that is kept.
     """
 
     def __init__(
@@ -32,10 +34,12 @@ class StoredModel(ModelWrapper):
         store: CallStore,
         shared: CallStore | None = None,
         iteration: Callable[[], int | None] = lambda: None,
+        redactor: Redactor | None = None,
     ) -> None:
         super().__init__(model)
         self._store, self._shared = store, shared
         self._iteration = iteration
+        self._redact = (redactor or Redactor()).redact
         self._asking = _KeyedLocks()
 
     def complete(self, request: ModelRequest) -> ModelReply:
@@ -84,8 +88,11 @@ class StoredModel(ModelWrapper):
             reply = self._model.complete(request)
         except UnusableReplyError as error:
             status = CallStatus.REFUSED if error.kind == "refused" else CallStatus.EMPTY
-            self._record(key, request, status, clean_text(error.text), error.usage or Usage())
+            said = self._redact(clean_text(error.text))
+            self._record(key, request, status, said, error.usage or Usage())
             raise
+        # Used as it is kept: whoever goes on later meets the same.
+        reply = replace(reply, text=self._redact(reply.text))
         status = CallStatus.CUT_OFF if reply.cut_off else CallStatus.ANSWERED
         self._record(key, request, status, reply.text, reply.usage)
         return reply
@@ -102,8 +109,8 @@ class StoredModel(ModelWrapper):
             model=self.name,
             parameters=json.dumps(dict(self.parameters), sort_keys=True),
             repetition=request.repetition,
-            system=request.system,
-            prompt=request.prompt,
+            system=self._redact(request.system),
+            prompt=self._redact(request.prompt),
             pictures=tuple(picture.sha256 for picture in request.pictures),
             reply=text,
             usage=usage,

@@ -18,7 +18,7 @@ class CallCosts:
     """What calls took.
 
     Attributes:
-        calls: questions put to models, those answered from a store included.
+        calls: that were needed, those included whose replies other runs had got.
         cost: in US dollars; None if it is unknown, which is not zero.
         input_tokens: None if unknown.
         output_tokens: None if unknown.
@@ -71,7 +71,7 @@ def _totals(run: RunArchive) -> tuple[CallTotals, ...]:
 def _added(totals: Iterable[CallTotals]) -> CallCosts:
     totals = tuple(totals)
     return CallCosts(
-        calls=sum(t.made + t.served for t in totals),
+        calls=sum(t.asked for t in totals),
         cost=_sum(totals, lambda t: t.cost),
         input_tokens=_sum(totals, lambda t: t.input_tokens),
         output_tokens=_sum(totals, lambda t: t.output_tokens),

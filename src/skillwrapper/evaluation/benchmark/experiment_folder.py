@@ -26,8 +26,9 @@ from skillwrapper.evaluation.problems.problem_files import read_problems, write_
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.published import PublishedResults, published_figures
 from skillwrapper.files.json_documents import read_lines
-from skillwrapper.files.writing import append_line, is_leftover, write_atomically
+from skillwrapper.files.writing import append_line, is_leftover, remove_leftovers, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
+from skillwrapper.redaction import redact
 from skillwrapper.runs.provenance import provenance
 
 ERROR = "error.txt"
@@ -100,7 +101,8 @@ class ExperimentFolder:
         """Note that a command runs what is not finished yet, and with which code."""
         if any(not self.is_finished(cell) for cell in self.experiment().cells):
             made_with = provenance().model_dump(mode="json")
-            append_line(self.path / _RUNS, {"command": command, "made_with": made_with})
+            line = {"command": redact(command), "made_with": made_with}
+            append_line(self.path / _RUNS, line)
 
     def runs(self) -> tuple[CommandRecord, ...]:
         """The commands that ran cells, in order of time."""
@@ -158,6 +160,8 @@ class ExperimentFolder:
     def reserved(self) -> Iterator[None]:
         """Keep others from running the same experiment here; ends with the process at the latest.
 
+        What a crash left of writing files is removed.
+
         Raises:
             RunFolderError: if another process is at it.
         """
@@ -169,6 +173,7 @@ class ExperimentFolder:
                     f"{self.path}: another process is running this experiment; wait for it, "
                     "or choose another --out"
                 ) from error
+            remove_leftovers(self.path)
             yield
 
     def _compare(self, experiment: Experiment, sets: dict[str, ProblemSet]) -> None:

@@ -22,7 +22,8 @@ from skillwrapper.evaluation.exact.exact_states import ExactStates
 from skillwrapper.evaluation.methods.cell import Cell, domain_key
 from skillwrapper.evaluation.methods.method import CellContext
 from skillwrapper.evaluation.methods.registry import METHODS
-from skillwrapper.files.writing import write_atomically
+from skillwrapper.files.writing import remove_leftovers, write_atomically
+from skillwrapper.redaction import redact
 
 _RETRIES = 3
 """How often a cell is tried again whose process was killed."""
@@ -102,14 +103,13 @@ def work(path: Path, cell: Cell) -> CellOutcome:
     """Run one cell; whatever goes wrong in it ends up in its folder and in the outcome."""
     folder = ExperimentFolder(path)
     error_file = folder.cell(cell) / ERROR
+    remove_leftovers(folder.cell(cell))  # of a process that was killed at this cell
     try:
         _run(folder, cell)
-    except SkillWrapperError as error:
-        write_atomically(error_file, f"{error}\n\n{traceback.format_exc()}")
-        return CellOutcome(cell, str(error))
     except Exception as error:  # one broken cell must not take the others along
-        told = f"{type(error).__name__}: {error}"
-        write_atomically(error_file, f"{told}\n\n{traceback.format_exc()}")
+        ours = isinstance(error, SkillWrapperError)
+        told = redact(str(error) if ours else f"{type(error).__name__}: {error}")
+        write_atomically(error_file, f"{told}\n\n{redact(traceback.format_exc())}")
         return CellOutcome(cell, told)
     error_file.unlink(missing_ok=True)
     return CellOutcome(cell)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import fcntl
 import os
 from collections.abc import Iterator
@@ -12,7 +11,12 @@ from pathlib import Path
 import yaml
 
 from skillwrapper.errors import RunFolderError, UserError
-from skillwrapper.files.writing import explained, is_leftover, write_atomically
+from skillwrapper.files.writing import (
+    explained,
+    is_leftover,
+    remove_leftovers,
+    write_atomically,
+)
 from skillwrapper.runs.archive.archive import RunArchive
 from skillwrapper.runs.archive.layout import RunLayout
 from skillwrapper.runs.archive.records import FORMAT
@@ -41,7 +45,7 @@ def make_archive(path: Path, settings: RunSettings, domain: Domain) -> RunArchiv
         archive = RunArchive.open(path)
         _check_settings(archive, settings)
         _keep_domain(archive, domain)
-        _clear(path)
+        remove_leftovers(path)
         return archive
     if path.exists() and not all(map(is_leftover, path.iterdir())):
         raise RunFolderError(
@@ -113,13 +117,6 @@ def _keep_domain(archive: RunArchive, domain: Domain) -> None:
             f"{archive.path}: the domain '{domain.name}' is not what it was when the run started "
             f"({archive.layout.domain}); choose another --out"
         )
-
-
-def _clear(path: Path) -> None:
-    """Remove what a crash left of writing files."""
-    with contextlib.suppress(OSError):
-        for leftover in filter(is_leftover, path.rglob(".*")):
-            leftover.unlink()
 
 
 def _lock(handle: int, path: Path) -> None:

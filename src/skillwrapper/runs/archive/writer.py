@@ -6,7 +6,6 @@ what is there and written where it differs, so that a resumed run mends what was
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,9 @@ from skillwrapper.files.writing import append_line, json_text, write_atomically
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.untested import find_untested
 from skillwrapper.perception.overruling import DecodingCertificate
+from skillwrapper.redaction import redact
 from skillwrapper.runs.archive.archive import RunArchive
+from skillwrapper.runs.archive.event_log import EventLog
 from skillwrapper.runs.archive.labels import truth_table
 from skillwrapper.runs.archive.records import (
     DecisionRecord,
@@ -41,6 +42,7 @@ from skillwrapper.runs.events import (
     RunFinished,
     SequenceChosen,
     SkillExecuted,
+    SkillRecalled,
 )
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.symbols.describe import describe_model
@@ -48,8 +50,6 @@ from skillwrapper.symbols.files import model_to_json, predicates_to_yaml
 from skillwrapper.symbols.pddl import print_domain
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.observation import Observation
-
-_FINISHED = "iteration_finished"
 
 
 class ArchiveWriter:
@@ -61,8 +61,7 @@ class ArchiveWriter:
 
     def __init__(self, archive: RunArchive) -> None:
         self._archive, self._layout = archive, archive.layout
-        logged = (e.iteration for e in archive.events() if e.event == _FINISHED)
-        self._logged = max(logged, default=0)
+        self._event_log = EventLog(archive.layout.events)
 
     def __call__(self, event: RunEvent) -> None:
         """Write an event down."""
@@ -91,7 +90,7 @@ class ArchiveWriter:
             skill=transition.instance.skill,
             arguments=transition.instance.arguments,
             success=transition.success,
-            message=event.message,
+            message=redact(event.message),
             after=self._archive.pictures.save(transition.after),
             changed=transition.changed,
         )
@@ -122,13 +121,10 @@ class ArchiveWriter:
         _keep(self._layout.result, json_text(to_plain(result.figures)))
 
     def _log(self, event: RunEvent) -> None:
-        """Put a line into the log, unless an earlier run has."""
         described = _describe(event)
-        if described is None or event.iteration <= self._logged:
-            return
-        name, data = described
-        head = {"time": round(time.time(), 3), "event": name, "iteration": event.iteration}
-        append_line(self._layout.events, {**data, **head}, durable=False)
+        if described is not None:
+            name, told = described
+            self._event_log.note(name, event.iteration, told)
 
 
 def _keep(path: Path, content: str) -> None:
@@ -148,14 +144,14 @@ def _describe(event: RunEvent) -> tuple[str, dict[str, Any]] | None:
             return "iteration_started", {"total": event.iterations, "budget": event.budget}
         case SequenceChosen():
             return "sequence_chosen", _describe_choice(event.choice)
-        case SkillExecuted():
+        case SkillExecuted() | SkillRecalled():
             done = event.transition
             told = {"instance": str(done.instance), "success": done.success}
             return "skill_executed", {**told, "reason": event.reason}
         case PredicateDecided():
             return "predicate_decided", to_plain(_decision_record(event.decision))
         case IterationFinished():
-            return _FINISHED, to_plain(event.result.figures)
+            return "iteration_finished", to_plain(event.result.figures)
     return None
 
 
