@@ -10,12 +10,14 @@ from dataclasses import dataclass
 from typing import Final
 
 from skillwrapper.domains.panda.objects import HANDLING
-from skillwrapper.domains.panda.states import PLATE, SPONGE, TEAPOT
+from skillwrapper.domains.panda.states import SPONGE, TEAPOT
 from skillwrapper.domains.tabletop.poses import Pose
 
 _NEAR, _FAR = 0.42, 0.63
 """How far from the robot things stand, in metres; the arm reaches all of it with some to spare."""
-_SIDE: Final = 0.36
+_SIDE: Final = 0.34
+_TURN: Final = 1.2
+"""How far the fingers may turn from where they are at home to close on a long thing, in radians."""
 _GAP: Final = 0.015
 
 
@@ -53,9 +55,10 @@ def make_layout(things: Sequence[str], seed: int) -> Layout:
 
 def _draw(thing: str, chance: random.Random) -> Place:
     x, y = chance.uniform(_NEAR, _FAR), chance.uniform(-_SIDE, _SIDE)
-    # Turned away from the robot a teapot's spout would be out of sight, and out of its reach.
-    widest = {TEAPOT: math.pi, SPONGE: math.pi / 2, PLATE: 0.0}.get(thing, math.pi)
-    return Place(x, y, chance.uniform(-widest, widest))
+    if thing not in (TEAPOT, SPONGE):
+        return Place(x, y, chance.uniform(-math.pi, math.pi))
+    fingers = chance.uniform(-_TURN, _TURN)
+    return Place(x, y, fingers + math.pi * (chance.choice((0.5, -0.5)) if thing == TEAPOT else 0.5))
 
 
 def _apart(places: Layout, first: str, second: str) -> bool:

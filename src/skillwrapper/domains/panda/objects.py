@@ -94,10 +94,10 @@ class Handling:
 HANDLING: Final[Mapping[str, Handling]] = MappingProxyType(
     {
         MUG: Handling(0.075, 0.0),
-        TEAPOT: Handling(0.105, 0.045, (0.0, 0.0, 0.095), 0.0055),
-        PLATE: Handling(0.110, 0.0),
-        BOWL: Handling(0.068, 0.0, (0.0, -0.0585, 0.046), 0.004),
-        SPONGE: Handling(0.060, 0.0175, (0.0, 0.0, 0.006), 0.030),
+        TEAPOT: Handling(0.115, 0.045, (0.0, 0.0, 0.095), 0.0055),
+        PLATE: Handling(0.125, 0.0),
+        BOWL: Handling(0.080, 0.0, (0.0, -0.0585, 0.046), 0.004),
+        SPONGE: Handling(0.065, 0.0175, (0.0, 0.0, 0.006), 0.030),
     }
 )
 SPOUT: Final[Vector] = np.array([0.112, 0.0, 0.035])

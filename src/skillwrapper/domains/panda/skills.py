@@ -9,7 +9,7 @@ import numpy as np
 
 from skillwrapper.domains.panda.objects import HANDLING, MUG_HEIGHT, MUG_RADIUS, PLATE_TOP, SPOUT
 from skillwrapper.domains.panda.states import MUG, PLATE, SPONGE, TEAPOT
-from skillwrapper.domains.panda.table import ARM, PandaTable
+from skillwrapper.domains.panda.table import ARM, HOME_GRIP, PandaTable
 from skillwrapper.domains.tabletop.kinematics import Joints
 from skillwrapper.domains.tabletop.motion import Motion, MotionFailed
 from skillwrapper.domains.tabletop.poses import Pose, turn_y, turn_z
@@ -89,7 +89,7 @@ class PandaSkills:
         """Rub the plate with the sponge in circles."""
         held = self._table.world.held[ARM].pose
         middle = self._table.world.pose(PLATE).position
-        turn = Pose.at(0.0, 0.0, 0.0).rotation
+        turn = HOME_GRIP.rotation @ held.rotation  # as it hangs at home
         low = PLATE_TOP + HANDLING[SPONGE].rest + _LET_GO
 
         def grip_at(x: float, y: float, height: float) -> Pose:

@@ -21,7 +21,8 @@ class ArmKind:
     Attributes:
         arm: name of its model.
         gripper: name of the gripper's model.
-        finger_joints: of the gripper, each with how it moves when the gripper opens by one.
+        finger_joints: of the gripper, each with how it moves when the gripper's value grows by one.
+        finger_servos: likewise its servos.
         opened: value of the fingers when the gripper is open.
         closed: value of the fingers when it is closed.
         stiffness: of each joint of the arm, in newton metres per radian, for physics.
@@ -31,6 +32,7 @@ class ArmKind:
     arm: str
     gripper: str
     finger_joints: Mapping[str, float]
+    finger_servos: Mapping[str, float]
     opened: float
     closed: float
     stiffness: tuple[float, ...]
@@ -46,6 +48,7 @@ PANDA: Final = ArmKind(
     arm="panda",
     gripper="panda_gripper",
     finger_joints=MappingProxyType({"finger_joint1": 1.0, "finger_joint2": -1.0}),
+    finger_servos=MappingProxyType({"gripper_finger_joint1": 1.0, "gripper_finger_joint2": -1.0}),
     opened=0.04,
     closed=0.0,
     stiffness=(4500, 4500, 3500, 3500, 2000, 2000, 2000),
@@ -64,6 +67,7 @@ IIWA: Final = ArmKind(
             "right_inner_knuckle_joint": -1.0,
         }
     ),
+    finger_servos=MappingProxyType({"finger_1": 1.0, "finger_2": -1.0}),
     opened=0.0,
     closed=0.7,
     stiffness=(4500, 4500, 3500, 3500, 2000, 2000, 2000),

@@ -110,12 +110,14 @@ class TableWorld:
 
     def put(self, thing: str, pose: Pose) -> None:
         """Put a thing somewhere, at rest; arms do not move."""
+        self.model.body_gravcomp[self.model.body(thing).id] = 0
         self._put(self.data, thing, pose)
         self.refresh()
 
     def put_away(self, thing: str) -> None:
         """Take a thing out of the scene."""
         self.put(thing, Pose.at(0.0, 0.0, PARKING_HEIGHT))
+        self.model.body_gravcomp[self.model.body(thing).id] = 1  # lest it fall back
 
     def is_away(self, thing: str) -> bool:
         """Whether a thing is not in the scene."""
