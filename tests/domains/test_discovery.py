@@ -214,3 +214,11 @@ def test_parts_of_the_bundled_domain() -> None:
     assert chalk.reset(seed=0).key != usual.reset(seed=0).key
     with pytest.raises(UnknownNameError, match="unknown drawing 'oil'; known: chalk"):
         burger.make_environment("oil")
+
+
+def test_a_drawing_takes_the_place_of_the_robot() -> None:
+    package = find_domain("burger@chalk")
+    assert package.reference == "burger@chalk"
+    assert find_domain(package.reference).entries.robot == package.entries.drawings["chalk"]
+    with pytest.raises(UnknownNameError, match="did you mean 'chalk'"):
+        find_domain("burger@chalks")

@@ -14,6 +14,7 @@ from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.problems.problem_files import problems_data, write_problems
 from skillwrapper.evaluation.problems.problem_generator import ProblemGenerator
+from skillwrapper.evaluation.problems.problem_scenes import problems_over_scenes
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.world.capabilities import Enumerable, require
 
@@ -31,6 +32,13 @@ def problems(
     impossible: Annotated[int, typer.Option(min=0, help="Proven to have no solution.")] = 10,
     seed: Annotated[int, typer.Option(min=0, help="Decides every choice.")] = 0,
     scene: Annotated[str | None, typer.Option(help="One of the domain's scenes.")] = None,
+    learned_in: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="A scene of learning; repeatable. Easy problems are then in these "
+            "scenes, hard ones in --scene, and both of any length to 7."
+        ),
+    ] = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Make test problems by exact search; the same seed makes the same ones."""
@@ -38,10 +46,15 @@ def problems(
     environment = require(package.make_environment(), Enumerable, "making problems")
     if out is not None and out.exists():
         raise ConfigurationError(f"{out} exists already; choose another --out, nothing was changed")
-    environment.reset(seed=0, scene=scene)
+    counts = (easy, hard, impossible)
     with messages().status("searching all states"):
-        generator = ProblemGenerator(environment, package, seed)
-        made = generator.generate(easy, hard, impossible)
+        if learned_in:
+            made = problems_over_scenes(
+                environment, package, seed, learned_in=learned_in, scene=scene, counts=counts
+            )
+        else:
+            environment.reset(seed=0, scene=scene)
+            made = ProblemGenerator(environment, package, seed).generate(*counts)
     environment.close()
     if out is not None:
         write_problems(made, out)

@@ -23,6 +23,11 @@ def bundled_names() -> tuple[str, ...]:
     return tuple(sorted(file.parent.name for file in _BUNDLED.glob(f"*/{DOMAIN_FILE}")))
 
 
+def plain_names() -> tuple[str, ...]:
+    """Names of the bundled domains whose robots need no extra of the package, sorted."""
+    return tuple(p.reference for p in bundled_domains() if p.entries.extra is None)
+
+
 def domain_names() -> tuple[str, ...]:
     """Names of the bundled and the installed domains, sorted."""
     return tuple(sorted({*bundled_names(), *_entry_points()}))
@@ -39,12 +44,16 @@ def find_domain(reference: str) -> DomainPackage:
     Args:
         reference: in this order: a bundled domain's name, the name of an installed one (entry
             point of the group ``skillwrapper.domains``), the path of a folder or of its
-            ``domain.yaml``, or ``package.module:name`` of a path or ``DomainPackage``.
+            ``domain.yaml``, or ``package.module:name`` of a path or ``DomainPackage``. With
+            ``@NAME`` behind any of these, one of its drawings takes the place of its robot.
 
     Raises:
         ConfigurationError: if there is no such folder or module, or a mistake in the file.
         UnknownNameError: if a name is not known.
     """
+    plain, at, drawing = reference.rpartition("@")
+    if at and plain and not Path(reference).expanduser().exists():
+        return find_domain(plain).drawn(drawing)
     if reference in bundled_names():
         return DomainPackage.read(_BUNDLED / reference, reference)
     if reference in _entry_points():

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -153,6 +153,17 @@ class DomainPackage:
         if drawing not in self.entries.drawings:
             raise UnknownNameError("drawing", drawing, self.entries.drawings)
         return self._make(self.entries.drawings[drawing], ("drawings", drawing))
+
+    def drawn(self, drawing: str) -> DomainPackage:
+        """The same package with one of its drawings for its robot.
+
+        Raises:
+            UnknownNameError: if there is no such drawing.
+        """
+        if drawing not in self.entries.drawings:
+            raise UnknownNameError("drawing", drawing, self.entries.drawings, self.reference)
+        entries = self.entries.model_copy(update={"robot": self.entries.drawings[drawing]})
+        return replace(self, reference=f"{self.reference}@{drawing}", entries=entries)
 
     @property
     def scene_reader(self) -> SceneReader | None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -42,11 +43,19 @@ class PublishedResults(_Part):
 
     Attributes:
         note: what must be said with it.
+        classes: what the classes of problems are called there, where not easy and hard.
         methods: by the names that our methods have.
     """
 
     note: str = ""
+    classes: Mapping[Literal["easy", "hard"], str] = {}
     methods: Mapping[str, PublishedMethod] = {}
+
+    def heading(self, text: str) -> str:
+        """A heading of a table with the classes' names."""
+        for kind, name in self.classes.items():
+            text = re.sub(rf"\b{kind}\b", name, text)
+        return text
 
 
 class PublishedPerception(_Part):

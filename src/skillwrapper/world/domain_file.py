@@ -100,6 +100,9 @@ class DomainFile(Entry):
     robot: str | None = Field(
         None, description="reference to a Robot or Environment, or to a function that makes one"
     )
+    extra: str | None = Field(
+        None, description="extra of the package skillwrapper that the robot needs"
+    )
     drawings: dict[Name, str] = Field(
         default_factory=dict, description="like robot, with pictures drawn in other ways"
     )

@@ -67,7 +67,7 @@ def test_a_full_mug_stays_full_and_a_clean_plate_clean() -> None:
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"held": "mug"}, {"held": "bowl", "stacked": "bowl"}, {"stacked": "bowl", "dirty": True}],
+    [{"held": "mug"}, {"stacked": "plate"}, {"held": "bowl", "stacked": "bowl"}],
 )
 def test_impossible_states_are_refused(wrong: dict[str, object]) -> None:
     with pytest.raises(ConfigurationError):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -11,6 +11,7 @@ from skillwrapper.domains.panda.cameras import FRONT, HEIGHT, WIDTH
 from skillwrapper.domains.panda.layout import Layout, make_layout
 from skillwrapper.domains.panda.skills import PandaSkills
 from skillwrapper.domains.panda.states import THINGS, PandaState, start_of
+from skillwrapper.domains.panda.system_predicates import system_atoms
 from skillwrapper.domains.panda.table import PandaTable, Setting
 from skillwrapper.domains.tabletop.motion import FrameTaker, KinematicMotion, MotionFailed
 from skillwrapper.domains.tabletop.photos import Photographer
@@ -91,6 +92,10 @@ class PandaEnvironment(Simulator[PandaState]):
         """The table with the arm at home."""
         return self._drawn(state, layout, self.scene.names)
 
+    def true_atoms(self, state: PandaState) -> Iterator[tuple[str, tuple[str, ...]]]:
+        """The true atoms of ``system_predicates.SYSTEM_PREDICATES``."""
+        return system_atoms(state)
+
     @cached_property
     def _table(self) -> PandaTable:
         return PandaTable(self._setting)
@@ -101,6 +106,10 @@ class PandaEnvironment(Simulator[PandaState]):
 
     def _draw(self, state: PandaState, layout: int, names: Sequence[str]) -> Picture:
         self._table.arrange(state, _places_of(layout, names))
+        return self._photo()
+
+    def _photo(self) -> Picture:
+        """The table as it is now."""
         return picture_of(self._photographer.take(self._table.world, self._camera))
 
     def _places(self, layout: int) -> Layout:

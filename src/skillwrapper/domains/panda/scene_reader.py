@@ -79,10 +79,13 @@ def read_panda_scene(png: bytes) -> SceneGraph:
         png: the encoded picture, of one of the known cameras.
 
     Raises:
-        PictureError: if it is no picture.
+        PictureError: if it is no picture, or shows no such table.
     """
     seen = materials(in_usual_light(_decode(png)))
-    view = _View(seen, camera_of(seen[WOOD]))
+    camera = camera_of(seen[WOOD])
+    if camera is None:
+        raise PictureError("expected a picture of the table with the arm, found no such table")
+    view = _View(seen, camera)
     plate = _find_plate(view)
     things = [Thing(ROBOT, "robot", Box(0, 0, WIDTH, HEIGHT // 3))]
     relations: dict[str, set[tuple[str, str]]] = {"on": set(), "held": set()}

@@ -39,8 +39,6 @@ class PandaState:
                 raise ConfigurationError(f"expected one of {', '.join(PICKUPABLE)}, got '{thing}'")
         if self.held is not None and self.held == self.stacked:
             raise ConfigurationError(f"expected the {self.held} in one place, got two")
-        if self.stacked is not None and self.dirty:
-            raise ConfigurationError(f"expected a clean plate under the {self.stacked}")
 
 
 def start_of(present: Iterable[str]) -> PandaState:

@@ -17,6 +17,8 @@ _X, _Y = np.arange(0.26, 0.80, CELL), np.arange(-0.52, 0.52, CELL)
 _TABLE_CORNERS: Final = ((-0.18, -0.65, 0), (0.82, -0.65, 0), (0.82, 0.65, 0), (-0.18, 0.65, 0))
 _COARSE: Final = 8
 """Every so many pixels are looked at to tell cameras apart."""
+_LEAST_AGREEMENT: Final = 0.5
+"""So much of where the table is, or should be, must be both."""
 
 
 def seen_from_above(mask: Mask, camera: str, height: float) -> Mask:
@@ -51,15 +53,19 @@ def best_disc(liked: Mask, disliked: Mask, radius: float) -> tuple[tuple[float, 
     return place, float(liked[inside].sum() / max(1, inside.sum()))
 
 
-def camera_of(wood: Mask) -> str:
-    """The camera that took a picture, by where the table is in it (rows, columns)."""
+def camera_of(wood: Mask) -> str | None:
+    """The camera that took a picture, by where the table is in it (rows, columns).
+
+    None if the table is nowhere where one of the cameras would see it.
+    """
     coarse = wood[::_COARSE, ::_COARSE]
 
     def agreement(camera: str) -> float:
         table = _table_seen(camera, wood.shape)
         return float((coarse & table).sum() / (coarse | table).sum())
 
-    return max(CAMERAS, key=agreement)
+    best = max(CAMERAS, key=agreement)
+    return best if agreement(best) > _LEAST_AGREEMENT else None
 
 
 @lru_cache(maxsize=32)

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
-from skillwrapper.domains.discovery import bundled_names
+from skillwrapper.domains.discovery import plain_names
 from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.methods.settings import ExperimentSettings
@@ -39,7 +39,7 @@ class Experiment(BaseModel):
         name: of the experiment.
         description: what it is to show.
         methods: names of methods, in any order.
-        domains: references to domains; by default all bundled ones.
+        domains: references to domains; by default all bundled ones that need no extra.
         seeds: every method runs once with each.
         noise: profiles of the embedded model (``none``, ``gpt5``), or rates from 0 to 1 with
             which every judgement errs.
@@ -52,7 +52,7 @@ class Experiment(BaseModel):
     name: str = Field(pattern=r"^[A-Za-z0-9][\w-]*$")
     description: str = ""
     methods: tuple[str, ...] = Field(min_length=1)
-    domains: tuple[str, ...] = Field(default_factory=bundled_names, min_length=1)
+    domains: tuple[str, ...] = Field(default_factory=plain_names, min_length=1)
     seeds: tuple[int, ...] = Field(default=(0,), min_length=1)
     noise: tuple[str, ...] = Field(default=("none",), min_length=1)
     settings: ExperimentSettings = Field(default_factory=ExperimentSettings)

@@ -122,7 +122,9 @@ def group_tables(
         published: what others published of the domain.
     """
     where = place(domain, noise)
-    first, *others = (_figures(f"{title} ({where})", methods, layout) for title, layout in _LAYOUTS)
+    first, *others = (
+        _figures(f"{title} ({where})", methods, layout, published) for title, layout in _LAYOUTS
+    )
     tables = (
         replace(first, note=" ".join(filter(None, (first.note, _judged(methods))))),
         _beside_published(where, methods, published),
@@ -134,7 +136,10 @@ def group_tables(
 
 
 def _figures(
-    title: str, methods: Sequence[MethodFigures], layout: Sequence[tuple[str, str, int]]
+    title: str,
+    methods: Sequence[MethodFigures],
+    layout: Sequence[tuple[str, str, int]],
+    published: PublishedResults,
 ) -> Table:
     """A table without the methods that have none of its figures."""
     shown = [m for m in methods if any(m.figures[name] is not None for _, name, _ in layout)]
@@ -142,7 +147,7 @@ def _figures(
         (_title(m.method), *(_figure(m, name, decimals) for _, name, decimals in layout))
         for m in shown
     )
-    headings = ("method", *(heading for heading, _, _ in layout))
+    headings = ("method", *(published.heading(heading) for heading, _, _ in layout))
     return Table(title, headings, rows, carried_by(m.method for m in shown))
 
 
@@ -156,7 +161,9 @@ def _beside_published(
         row = published.methods[method.method]
         pairs = ((_figure(method, name, 1), _published(getattr(row, name))) for name in names)
         rows.append((_title(method.method), *(text for pair in pairs for text in pair)))
-    headings = ("easy %", "budget", "hard %", "budget", "impossible %")
+    headings = tuple(
+        map(published.heading, ("easy %", "budget", "hard %", "budget", "impossible %"))
+    )
     columns = ("method", *(text for heading in headings for text in (heading, "paper")))
     note = " ".join(filter(None, (published.note, carried_by(m.method for m in shown))))
     return Table(f"Beside the paper ({where})", columns, tuple(rows), note)

@@ -69,14 +69,18 @@ class ProblemGenerator:
             ConfigurationError: if the domain has not so many.
         """
         problems = (
-            *self._solvable(ProblemClass.EASY, easy),
-            *self._solvable(ProblemClass.HARD, hard),
-            *self._impossible(impossible),
+            *self.solvable(ProblemClass.EASY, easy, _LENGTHS[ProblemClass.EASY]),
+            *self.solvable(ProblemClass.HARD, hard, _LENGTHS[ProblemClass.HARD]),
+            *self.impossible(impossible),
         )
         return ProblemSet(self.environment.domain.name, self.seed, problems)
 
-    def _solvable(self, kind: ProblemClass, count: int) -> Iterator[Problem]:
-        lengths = _LENGTHS[kind]
+    def solvable(self, kind: ProblemClass, count: int, lengths: range) -> Iterator[Problem]:
+        """Problems of a class with optimal solutions of these lengths, spread over them.
+
+        Raises:
+            ConfigurationError: if the domain has not so many.
+        """
         for number in range(count):
             wanted = lengths[number * len(lengths) // count]
             length, start, goal = self._draw_length(lengths.start, wanted, number % 2 == 0)
@@ -93,7 +97,12 @@ class ProblemGenerator:
         what = f"optimal solutions of {length} skills"
         return self._draw(partial(self._at_distance, length), what, standard=standard)
 
-    def _impossible(self, count: int) -> Iterator[Problem]:
+    def impossible(self, count: int) -> Iterator[Problem]:
+        """Problems that are proven to have no solution.
+
+        Raises:
+            ConfigurationError: if the domain has not so many.
+        """
         known = self._impossibility
         for number in range(count):
             kind = known.kinds[number % len(known.kinds)]
