@@ -11,7 +11,7 @@ from skillwrapper.evaluation.methods.fm_invent import FM_INVENT
 from skillwrapper.evaluation.methods.method import Method
 from skillwrapper.evaluation.methods.proposed_sequences import NO_HEURISTIC, PAPER_EXPLORATION
 from skillwrapper.evaluation.methods.random_exploration import RANDOM_EXPLORATION
-from skillwrapper.evaluation.methods.skillwrapper import OURS, OURS_PAPER_BUDGET
+from skillwrapper.evaluation.methods.skillwrapper import OURS, OURS_ONCE_A_SCENE, OURS_PAPER_BUDGET
 from skillwrapper.evaluation.methods.system import SYSTEM, SYSTEM_ABSENCE
 from skillwrapper.evaluation.methods.vila import VILA
 
@@ -25,6 +25,7 @@ _ALL: tuple[Method, ...] = (
     FM_INVENT,
     NO_HEURISTIC,
     PAPER_EXPLORATION,
+    OURS_ONCE_A_SCENE,
     OURS_PAPER_BUDGET,
     OURS,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Final
 
 from skillwrapper.evaluation.methods.learned import WHOLE_METHOD, LearnedMethod
@@ -10,15 +11,25 @@ from skillwrapper.runs.settings import RunSettings
 PAPER_ITERATIONS: Final = 5
 PAPER_BUDGET: Final = 15
 """The paper's hyperparameters (Appendix, Hyperparameters)."""
+PAPER_SCENES: Final = 3
+"""One iteration in each of so many scenes, where the paper tests generalization (Section 4.2)."""
 
 OURS: Final = LearnedMethod("ours", "SkillWrapper (ours)", WHOLE_METHOD)
 
 
-def _paper_budget(config: RunSettings) -> RunSettings:
-    exploration = config.exploration.model_copy(update={"budget": PAPER_BUDGET})
-    return config.model_copy(update={"iterations": PAPER_ITERATIONS, "exploration": exploration})
+def _iterations(count: int) -> Callable[[RunSettings], RunSettings]:
+    """Settings with so many iterations of the paper's budget."""
+
+    def change(config: RunSettings) -> RunSettings:
+        exploration = config.exploration.model_copy(update={"budget": PAPER_BUDGET})
+        return config.model_copy(update={"iterations": count, "exploration": exploration})
+
+    return change
 
 
 OURS_PAPER_BUDGET: Final = LearnedMethod(
-    "ours-5x15", "SkillWrapper, 5 x 15", WHOLE_METHOD, _paper_budget
+    "ours-5x15", "SkillWrapper, 5 x 15", WHOLE_METHOD, _iterations(PAPER_ITERATIONS)
+)
+OURS_ONCE_A_SCENE: Final = LearnedMethod(
+    "ours-3x15", "SkillWrapper, 3 x 15", WHOLE_METHOD, _iterations(PAPER_SCENES)
 )
