@@ -11,6 +11,7 @@ import typer
 from rich.text import Text
 
 from skillwrapper.cli.domain_argument import DomainArgument
+from skillwrapper.cli.films import filmed
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.package import DomainPackage
@@ -27,6 +28,7 @@ from skillwrapper.world.capabilities import (
 from skillwrapper.world.conformance import check_environment
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
+from skillwrapper.world.episode import Outcome
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import ground_skills, parse_skill_instance
@@ -76,29 +78,36 @@ def render(
         list[str] | None,
         typer.Option("--do", help="A skill to run first, e.g. 'Pick(robot, cup)'; repeatable."),
     ] = None,
+    video: Annotated[
+        Path | None,
+        typer.Option(help="Also write a video (.webp, .gif) of the skills, if it can be filmed."),
+    ] = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Write a picture of a domain in some state."""
-    environment = find_domain(reference).make_environment()
-    observation = environment.reset(seed=seed, scene=scene)
-    if state is not None:
-        observation = _set_state(environment, state, seed)
-    outcomes = []
-    for text in skills or []:
-        instance = parse_skill_instance(text)
-        environment.domain.check_instance(instance, environment.scene)
-        outcome = environment.execute(instance)
-        observation = outcome.observation
-        outcomes.append({"skill": str(instance), "success": outcome.success})
-    write_atomically(out, observation.picture(camera).png)
-    environment.close()
+    with closing(find_domain(reference).make_environment()) as environment:
+        observation = environment.reset(seed=seed, scene=scene)
+        if state is not None:
+            observation = _set_state(environment, state, seed)
+        with filmed(environment, video):
+            done = [_execute(environment, text) for text in skills or []]
+        shown = done[-1][1].observation if done else observation
+        write_atomically(out, shown.picture(camera).png)
     if as_json:
-        print_json({"picture": str(out), "skills": outcomes})
+        film = {} if video is None else {"video": str(video)}
+        outcomes = [{"skill": skill, "success": outcome.success} for skill, outcome in done]
+        print_json({"picture": str(out), **film, "skills": outcomes})
     else:
-        for outcome_line in outcomes:
-            done = "done" if outcome_line["success"] else "failed"
-            results().print(f"{outcome_line['skill']}: {done}")
-        results().print(f"wrote {out}")
+        for skill, outcome in done:
+            results().print(f"{skill}: {'done' if outcome.success else 'failed'}")
+        for path in filter(None, (out, video)):
+            results().print(f"wrote {path}")
+
+
+def _execute(environment: Environment, text: str) -> tuple[str, Outcome]:
+    instance = parse_skill_instance(text)
+    environment.domain.check_instance(instance, environment.scene)
+    return str(instance), environment.execute(instance)
 
 
 def _set_state(environment: Environment, text: str, seed: int) -> Observation:

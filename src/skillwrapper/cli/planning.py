@@ -10,6 +10,7 @@ from typing import Annotated
 
 import typer
 
+from skillwrapper.cli.films import filmed
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import GoalError
@@ -77,6 +78,10 @@ def solve(
     init_seed: Annotated[int, typer.Option(min=0, help="Seed of the start.")] = 0,
     scene: SceneOption = None,
     gif: Annotated[Path | None, typer.Option(help="Animation; default: RUN/solve.gif.")] = None,
+    video: Annotated[
+        Path | None,
+        typer.Option(help="Also write a video (.webp, .gif) of the last try, if it can be filmed."),
+    ] = None,
     positive: GoalReading = False,
     plans: PlansOption = 10,
     time_limit: LimitOption = 30.0,
@@ -91,17 +96,24 @@ def solve(
         present = learned.domain.scene(scene)
         wanted = _goal(learned, goal, scene, positive)
 
-        def prepare() -> Observation:
+        def reset() -> Observation:
             return environment.reset(seed=init_seed, scene=present.name)
 
-        start = learned.read(prepare(), scene=present)
+        start = learned.read(reset(), scene=present)
         found = learned.plan(start, wanted, plans=plans, time_limit=time_limit)
-        report = attempt(
-            environment,
-            prepare,
-            found.plans,
-            lambda: learned.read(environment.observe(), scene=present).satisfies(wanted),
-        )
+        with filmed(environment, video if found.plans else None) as film:
+
+            def prepare() -> Observation:
+                if film is not None:
+                    film.frames.clear()
+                return reset()
+
+            report = attempt(
+                environment,
+                prepare,
+                found.plans,
+                lambda: learned.read(environment.observe(), scene=present).satisfies(wanted),
+            )
     if report.attempts:
         save_gif(target, report.attempts[-1])
     if as_json:

@@ -6,13 +6,13 @@ needed. States are hashable, comparable and opaque to everything outside the dom
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Protocol, TypeVar
 
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.world.environment import Environment
-from skillwrapper.world.observation import Observation
+from skillwrapper.world.observation import Observation, Picture
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -90,6 +90,14 @@ class Replayable(Environment, Protocol):
         ...
 
 
+class Filmed(Environment, Protocol):
+    """It shows what happens while a skill runs."""
+
+    def film(self, take: Callable[[Picture], None] | None) -> None:
+        """Call ``take`` with a picture every so often while skills run; None to stop that."""
+        ...
+
+
 CAPABILITIES: Mapping[type, tuple[str, tuple[str, ...]]] = MappingProxyType(
     {
         Settable: ("settable", ("get_state", "set_state", "state_to_data", "state_from_data")),
@@ -98,6 +106,7 @@ CAPABILITIES: Mapping[type, tuple[str, tuple[str, ...]]] = MappingProxyType(
         Truthful: ("truthful", ("true_atoms",)),
         Judged: ("judged", ("goals", "is_reached")),
         Replayable: ("replayable", ("replayable",)),
+        Filmed: ("filmed", ("film",)),
     }
 )
 """For every capability its name and the members that make it, without those it builds on."""

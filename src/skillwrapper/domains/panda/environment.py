@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from skillwrapper.domains.panda.skills import PandaSkills
 from skillwrapper.domains.panda.states import THINGS, PandaState, start_of
 from skillwrapper.domains.panda.system_predicates import system_atoms
 from skillwrapper.domains.panda.table import PandaTable, Setting
-from skillwrapper.domains.tabletop.motion import FrameTaker, KinematicMotion, MotionFailed
+from skillwrapper.domains.tabletop.motion import KinematicMotion, Motion, MotionFailed
 from skillwrapper.domains.tabletop.photos import Photographer
 from skillwrapper.world.domain import Domain, load_domain
 from skillwrapper.world.episode import Outcome
@@ -40,7 +40,6 @@ class PandaEnvironment(Simulator[PandaState]):
     Args:
         setting: what the things look like, and the light.
         camera: where it is seen from.
-        on_frame: called with the world now and then during motions.
         domain: of ``domain.yaml``; None to read it.
     """
 
@@ -49,11 +48,10 @@ class PandaEnvironment(Simulator[PandaState]):
         setting: Setting | None = None,
         camera: str = FRONT,
         *,
-        on_frame: FrameTaker | None = None,
         domain: Domain | None = None,
     ) -> None:
         super().__init__(domain or read_domain())
-        self._setting, self._camera, self._on_frame = setting or Setting(), camera, on_frame
+        self._setting, self._camera = setting or Setting(), camera
         self._photographer = Photographer(WIDTH, HEIGHT)
         self._drawn = lru_cache(maxsize=_KEPT_PICTURES)(self._draw)
 
@@ -100,9 +98,17 @@ class PandaEnvironment(Simulator[PandaState]):
     def _table(self) -> PandaTable:
         return PandaTable(self._setting)
 
+    def film(self, take: Callable[[Picture], None] | None) -> None:
+        """Call ``take`` with a picture every 80 milliseconds or so while the arm moves."""
+        self._motion.on_frame = None if take is None else lambda _: take(self._photo())
+
+    @cached_property
+    def _motion(self) -> Motion:
+        return KinematicMotion(self._table.world)
+
     @cached_property
     def _skills(self) -> PandaSkills:
-        return PandaSkills(self._table, KinematicMotion(self._table.world, self._on_frame))
+        return PandaSkills(self._table, self._motion)
 
     def _draw(self, state: PandaState, layout: int, names: Sequence[str]) -> Picture:
         self._table.arrange(state, _places_of(layout, names))

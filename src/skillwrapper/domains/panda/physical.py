@@ -7,10 +7,9 @@ from typing import Final
 
 from skillwrapper.domains.panda.cameras import FRONT
 from skillwrapper.domains.panda.environment import PandaEnvironment
-from skillwrapper.domains.panda.skills import PandaSkills
 from skillwrapper.domains.panda.states import PICKUPABLE, PandaState
 from skillwrapper.domains.panda.table import ARM, PandaTable, Setting
-from skillwrapper.domains.tabletop.motion import FrameTaker, MotionFailed
+from skillwrapper.domains.tabletop.motion import MotionFailed
 from skillwrapper.domains.tabletop.physics import NO_TROUBLES, PhysicsMotion, Troubles
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Outcome
@@ -32,7 +31,6 @@ class PhysicalPandaEnvironment(PandaEnvironment):
         troubles: what goes wrong.
         setting: what the things look like, and the light.
         camera: where it is seen from.
-        on_frame: called with the world every 80 milliseconds of simulated time.
         domain: of ``domain.yaml``; None to read it.
     """
 
@@ -42,10 +40,9 @@ class PhysicalPandaEnvironment(PandaEnvironment):
         setting: Setting | None = None,
         camera: str = FRONT,
         *,
-        on_frame: FrameTaker | None = None,
         domain: Domain | None = None,
     ) -> None:
-        super().__init__(setting, camera, on_frame=on_frame, domain=domain)
+        super().__init__(setting, camera, domain=domain)
         self._troubles = troubles
 
     def set_state(self, state: PandaState, *, seed: int | None = None) -> Observation:
@@ -89,11 +86,7 @@ class PhysicalPandaEnvironment(PandaEnvironment):
 
     @cached_property
     def _motion(self) -> PhysicsMotion:
-        return PhysicsMotion(self._table.world, self._troubles, on_frame=self._on_frame)
-
-    @cached_property
-    def _skills(self) -> PandaSkills:
-        return PandaSkills(self._table, self._motion)
+        return PhysicsMotion(self._table.world, self._troubles)
 
     def _mishap(self, before: PandaState, after: PandaState, instance: SkillInstance) -> str | None:
         """What is not as the skill should have left it."""

@@ -15,6 +15,8 @@ from skillwrapper.domains.tabletop.world import Held, TableWorld
 
 CHECKED_STEP: Final = 0.05
 """No joint moves farther between two looks at what is touched, in radians."""
+_FILMED_STEP: Final = 0.11
+"""What the fastest joint does from frame to frame: 80 milliseconds at the speed of servos."""
 _STRAIGHT_STEP: Final = 0.02
 """Metres between the points of a straight line."""
 _DETOUR_HEIGHTS: Final = (0.30, 0.42)
@@ -211,7 +213,7 @@ class KinematicMotion(Motion):
         if self.on_frame is not None:
             present = self.start(arm)
             for joints in path:
-                for step in between(present, joints, CHECKED_STEP * pace):
+                for step in between(present, joints, _FILMED_STEP * pace):
                     self.world.set_joints(arm, step)
                     self.on_frame(self.world)
                 present = joints
