@@ -16,6 +16,7 @@ WHOLE = RunSettings(
 CHANGES = (
     ("ours", {}),
     ("ours-5x15", {"iterations": (10, 5), "budget": (30, 15)}),
+    ("ours-3x15", {"iterations": (10, 3), "budget": (30, 15)}),
     ("random", {"explorer": ("planned", "random")}),
     ("paper-exploration", {"explorer": ("planned", "paper")}),
     ("no-heuristic", {"explorer": ("planned", "paper"), "choice": ("pareto", "uniform")}),
@@ -43,5 +44,5 @@ def _differences(before: dict, after: dict) -> dict[str, tuple[object, object]]:
 
 def test_registry() -> None:
     assert [method.name for method in METHODS.values()] == list(METHODS)
-    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 11
+    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 12
     assert all(m.source is None or m.source in METHODS for m in METHODS.values())
