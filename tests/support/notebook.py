@@ -46,6 +46,7 @@ def make_domain(
     skills: Mapping[str, str],
     *,
     failures_change_nothing: bool = False,
+    resets_restore_state: bool = False,
 ) -> Domain:
     """A domain from ``{"apple": "food hot"}`` and ``{"Pick": "robot item"}``."""
     hierarchy = TypeHierarchy(types)
@@ -63,6 +64,7 @@ def make_domain(
             for name, own in skills.items()
         ),
         failures_change_nothing=failures_change_nothing,
+        resets_restore_state=resets_restore_state,
     )
 
 

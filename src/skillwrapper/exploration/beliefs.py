@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.exploration.novelty import Features, Novelty, see_features
+from skillwrapper.exploration.promise import promise_of
 from skillwrapper.grounding import AtomSpace, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
@@ -25,6 +26,8 @@ class Expectations:
         success: how likely the instance works.
         alone: how new it is beside failures: something is seen that none of them saw, 0 to 1.
         pairs: the same by pairs of what is seen.
+        promise: how promising it is if the skill never succeeded, or not with arguments of such
+            types, but for a factor; else 0.
         alone_done: how new it is beside successes.
         pairs_done: the same by pairs.
     """
@@ -32,6 +35,7 @@ class Expectations:
     success: NDArray[np.float64]
     alone: NDArray[np.float64]
     pairs: NDArray[np.float64]
+    promise: NDArray[np.float64]
     alone_done: NDArray[np.float64]
     pairs_done: NDArray[np.float64]
 
@@ -51,12 +55,17 @@ class SkillBeliefs:
         self.spaces: tuple[VersionSpace, ...] = version_spaces(fit, skill, doubt=doubt)
         self._failures = self._seen(success=False)
         self._successes = self._seen(success=True)
+        self._kinds = [
+            (table.argument_types(row), bool(table.success[row]))
+            for table in (p.table for p in self.of_skill.predictions)
+            for row in range(len(table))
+        ]
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
 
     def expect(
         self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
     ) -> NDArray[np.float64]:
-        """The figures of ``Expectations``, in its order (5, states, instances).
+        """The figures of ``Expectations``, in its order (6, states, instances).
 
         Args:
             space: the ground atoms of the whole vocabulary in the scene.
@@ -81,24 +90,39 @@ class SkillBeliefs:
         for version_space in self.spaces:
             failing *= 1 - version_space.success_probability(space, attempts)
         figures = [1 - failing, *self._novelty(space, states, attempts)]
-        return np.stack(figures).reshape(5, len(states), len(instances))
+        return np.stack(figures).reshape(6, len(states), len(instances))
 
     def _novelty(
         self, space: AtomSpace, states: Labels, attempts: Attempts
     ) -> list[NDArray[np.float64]]:
         """Beside failures and beside successes; all is new beside nothing."""
         if not self.of_skill.predictions:
-            return [np.ones(len(attempts))] * 4
+            return [np.ones(len(attempts))] * 5
         useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
         columns = [space.column[atom] for atom in useful.atoms]
         looked_up = AbstractStates(states[:, columns])
         useful_attempts = Attempts(looked_up, attempts.arguments, attempts.rows, attempts.which)
         seen = see_features(useful, useful_attempts, self._types)
-        figures = []
-        for earlier in (self._failures, self._successes):
-            novelty = Novelty.of(seen, earlier)
-            figures += [novelty.alone, novelty.pairs]
-        return figures
+        failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
+        promise = self._promise(space, seen, attempts)
+        return [failed.alone, failed.pairs, promise, done.alone, done.pairs]
+
+    def _promise(self, space: AtomSpace, seen: Features, attempts: Attempts) -> NDArray[np.float64]:
+        """Of attempts at the skill, or with such types, that never succeeded (attempts,)."""
+        if not self.of_skill.operators:
+            return promise_of(seen, self._failures)
+        found = np.zeros(len(seen))
+        kinds = [
+            tuple(space.objects[n].types for n in arguments)
+            for arguments in attempts.arguments.tolist()
+        ]
+        failed = [kind for kind, success in self._kinds if not success]
+        for kind in dict.fromkeys(kinds):
+            if (kind, True) not in self._kinds:
+                own = np.array([k == kind for k in kinds], dtype=bool)[attempts.which]
+                rows = [n for n, k in enumerate(failed) if k == kind]
+                found[own] = promise_of(seen[own], self._failures[rows])
+        return found
 
     def _seen(self, *, success: bool) -> Features:
         """What earlier attempts saw (attempts, features)."""
@@ -132,7 +156,7 @@ class Beliefs:
         doubt: float,
     ) -> Expectations:
         """What to expect of all instances of a scene in some states (states, atoms)."""
-        figures = np.zeros((5, len(states), len(instances)))
+        figures = np.zeros((6, len(states), len(instances)))
         for skill in fit.domain.skills:
             numbers = [n for n, i in enumerate(instances) if i.skill == skill.name]
             if numbers:

@@ -24,6 +24,7 @@ class Lookahead:
         depth: how many skills lead there (nodes,).
         parent: the node before (nodes,); -1 for the first one.
         step: the number of the skill instance that leads there (nodes,); -1 for the first one.
+        chance: how likely one gets there (nodes,), as far as one can rely on the model's ways.
         sure: whether an instance surely applies (states, instances).
     """
 
@@ -33,6 +34,7 @@ class Lookahead:
     depth: NDArray[np.intp]
     parent: NDArray[np.intp]
     step: NDArray[np.intp]
+    chance: NDArray[np.float64]
     sure: NDArray[np.bool_]
 
     def path(self, node: int) -> list[int]:
@@ -53,8 +55,11 @@ def look_ahead(
     depth: int,
     most: int,
     blocked: Collection[int] = (),
+    reliability: NDArray[np.float64] | None = None,
 ) -> Lookahead:
     """Search breadth-first.
+
+    At most half of the nodes are states again that were there before, with other roles.
 
     Args:
         graph: the states of the model.
@@ -64,9 +69,12 @@ def look_ahead(
         depth: at most so many skills are looked ahead.
         most: nodes are only added while there are fewer than so many.
         blocked: numbers of instances that are no way from here, whatever the model says.
+        reliability: of every instance (instances,), how likely it leads where it is said to;
+            None for surely.
     """
     nodes = [(graph.add(start), roles)]
-    known = {(nodes[0][0], roles.tobytes())}
+    known, states = {(nodes[0][0], roles.tobytes())}, {nodes[0][0]}
+    again = most // 2
     parent, step = [-1], [-1]
     layer = [0]
     for _ in range(depth):
@@ -76,8 +84,10 @@ def look_ahead(
                 continue
             then = scene.after(nodes[node][1], number)
             key = (state, then.tobytes())
-            if key not in known and len(nodes) < most:
+            if key not in known and len(nodes) < most and (state not in states or again):
+                again -= state in states
                 known.add(key)
+                states.add(state)
                 after.append(len(nodes))
                 nodes.append((state, then))
                 parent.append(node)
@@ -85,7 +95,7 @@ def look_ahead(
         layer = after
         if not layer:
             break
-    return _as_arrays(graph, scene, nodes, parent, step)
+    return _as_arrays(graph, scene, nodes, parent, step, reliability)
 
 
 def roll_out(
@@ -110,11 +120,15 @@ def _as_arrays(
     nodes: Sequence[tuple[int, Roles]],
     parent: Sequence[int],
     step: Sequence[int],
+    reliability: NDArray[np.float64] | None = None,
 ) -> Lookahead:
     numbers, state_of = np.unique([state for state, _ in nodes], return_inverse=True)
     depth: list[int] = []
-    for before in parent:
+    chance: list[float] = []
+    for before, number in zip(parent, step, strict=True):
         depth.append(depth[before] + 1 if before >= 0 else 0)
+        works = 1.0 if before < 0 or reliability is None else float(reliability[number])
+        chance.append(chance[before] * works if before >= 0 else 1.0)
     return Lookahead(
         graph.states(numbers.tolist()),
         state_of.ravel(),
@@ -122,6 +136,7 @@ def _as_arrays(
         np.array(depth, dtype=np.intp),
         np.array(parent, dtype=np.intp),
         np.array(step, dtype=np.intp),
+        np.array(chance, dtype=np.float64),
         _sure(graph, numbers.tolist(), scene),
     )
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.exploration.roles import RoleNumbers, Roles, SceneRoles
+from skillwrapper.exploration.roles import Kind, RoleNumbers, Roles, SceneRoles
 from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.world.domain import Domain
@@ -18,6 +18,10 @@ from skillwrapper.world.skills import SkillInstance
 
 _FADING = 0.8
 """What is left of a surprise after the next attempt of its kind."""
+_WEARING = 0.9
+"""What is left of what is known of a single instance after its next attempt."""
+_PATIENCE = 3
+"""After three times so many failures the hope for a skill is half of what it was."""
 
 Signature = tuple[int, ...]
 """The roles of a skill instance's arguments."""
@@ -58,6 +62,9 @@ class Memory:
         seen: the signatures that were tried, by skill.
         surprises: how often predictions were wrong.
         pursued: how often a cause was gone after, by skill and signature.
+        failures: how often instances failed, and skills, also with the types of their arguments.
+        proven: the skills, with the types of their arguments, that ever succeeded.
+        missed: how often the way to an attempt led elsewhere, since it was last made.
     """
 
     def __init__(self, domain: Domain) -> None:
@@ -66,12 +73,16 @@ class Memory:
         self._scenes: dict[Scene, SceneRoles] = {}
         self._failed: dict[str, set[tuple[int, int]]] = defaultdict(set)
         self._tried: dict[tuple[str, SkillInstance], bool] = {}
+        self.failures: Counter[str | Kind | SkillInstance] = Counter()
+        self.proven: set[Kind] = set()
         self._vain: set[tuple[bytes, SkillInstance]] = set()
+        self._kept: dict[SkillInstance, tuple[float, float]] = {}
         self.roles: Roles = np.zeros(0, dtype=np.intp)
         self.signatures: list[Signature] = []
         self.seen: dict[str, set[Signature]] = defaultdict(set)
         self.surprises = Surprises()
         self.pursued: Counter[tuple[str, Signature]] = Counter()
+        self.missed: Counter[SkillInstance] = Counter()
 
     def scene(self, scene: Scene) -> SceneRoles:
         """The roles that objects of a scene can play."""
@@ -110,10 +121,34 @@ class Memory:
             self.surprises.note(predicted=predicted, success=transition.success)
         if transition.success:
             self.roles = own.after(self.roles, number)
+            self.proven.add(own.kinds[number])
             self._vain.clear()
         else:
             self._vain.add((state, instance))
+            self.failures.update([instance, instance.skill, own.kinds[number]])
             self._failed[instance.skill] |= set(enumerate(signature))
+
+    def rely(self, instance: SkillInstance, *, kept: bool) -> None:
+        """Take note of whether an instance that surely works led where the model says."""
+        right, times = self._kept.get(instance, (0.0, 0.0))
+        self._kept[instance] = right * _WEARING + kept, times * _WEARING + 1
+
+    def reliability(self, scene: SceneRoles) -> NDArray[np.float64]:
+        """How likely each instance (instances,) leads where the model is sure that it does.
+
+        One that never failed there is relied on; else the share by the rule of succession.
+        """
+        kept = [self._kept.get(instance, (0.0, 0.0)) for instance in scene.instances]
+        shares = [1.0 if right == times else (right + 1) / (times + 2) for right, times in kept]
+        return np.array(shares, dtype=np.float64)
+
+    def hope(self, what: str | Kind) -> float:
+        """What hope there is, 0 to 1, for what never succeeded: less with every failure.
+
+        Args:
+            what: a skill, or a skill with certain types of arguments.
+        """
+        return float(np.sqrt(_PATIENCE / (_PATIENCE + self.failures[what])))
 
     def pursue(
         self, causes: Iterable[Inconsistency], scene: SceneRoles, instance: SkillInstance

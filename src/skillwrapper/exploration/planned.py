@@ -20,7 +20,7 @@ from skillwrapper.exploration.memory import Memory
 from skillwrapper.exploration.roles import SceneRoles
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.exploration.worth import Values, Weights, Worth, weigh
-from skillwrapper.grounding import AtomSpace, GroundModel
+from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.search import StateGraph
@@ -33,6 +33,8 @@ from skillwrapper.world.skills import SkillInstance
 
 _NOTHING = 1e-3
 """What is worth less is not worth a skill."""
+_MISSED = 0.5
+"""What an attempt from afar is still worth, every time that the way to it has led elsewhere."""
 
 _WHY: Mapping[str, str] = {
     "new": "{skill} was never tried like this",
@@ -52,6 +54,8 @@ class Thought:
         worth: what every instance is worth in every node, by what for.
         values: the same all together; less than nothing for what was tried before just here.
         causes: what the model cannot explain, one inconsistency for each cause.
+        graph: the states of the model.
+        space: their ground atoms.
     """
 
     scene: SceneRoles
@@ -59,6 +63,8 @@ class Thought:
     worth: Worth
     values: Values
     causes: tuple[Inconsistency, ...]
+    graph: StateGraph
+    space: AtomSpace
 
     @property
     def state(self) -> bytes:
@@ -69,7 +75,8 @@ class Thought:
     @property
     def scores(self) -> Values:
         """What every attempt is worth for its price (nodes, instances)."""
-        return self.values / (self.lookahead.depth[:, np.newaxis] + 1)
+        lookahead = self.lookahead
+        return self.values * (lookahead.chance / (lookahead.depth + 1))[:, np.newaxis]
 
     @property
     def is_idle(self) -> bool:
@@ -85,6 +92,16 @@ class Thought:
         """Whether an instance surely works now, by the model."""
         state = self.lookahead.state[0]
         return bool(self.lookahead.sure[state, self.scene.number[instance]])
+
+    def leads(self, instance: SkillInstance, state: Labels) -> bool:
+        """Whether an instance that surely works leads from here to a state (atoms,).
+
+        As ways go by the first operator that applies, so does this.
+        """
+        here = self.graph.add(self.lookahead.states[self.lookahead.state[0]])
+        edges = self.graph.edges([here])
+        after = next(edge.after for _, edge in edges if edge.instance == instance)
+        return bool((self.graph.states([after]) == state).all())
 
     def is_witness(self, instance: SkillInstance) -> bool:
         """Whether running an instance now is worth it as what the model cannot explain."""
@@ -114,6 +131,7 @@ class PlannedExplorer:
         self._graph: tuple[tuple[AtomSpace, tuple[Operator, ...]], StateGraph] | None = None
         self._noted = 0
         self._thought: Thought | None = None
+        self._target: SkillInstance | None = None
 
     def next_skill(self, situation: Situation) -> NextSkill:
         """The first step towards the best attempt within reach, or the end if one is stuck."""
@@ -126,9 +144,12 @@ class PlannedExplorer:
 
     def think(self, situation: Situation) -> Thought:
         """Weigh everything within reach; to be called once in every situation."""
+        last = self._thought
         self._note(situation.scene, situation.done)
         if not situation.done:
             self._memory.start(situation.scene)
+        elif last is not None and last.space == situation.space:
+            self._compare(last, situation)
         scene, here = self._memory.scene(situation.scene), situation.state.tobytes()
         seen = situation.observation.key
         failed = [self._memory.has_failed(seen, here, instance) for instance in scene.instances]
@@ -140,14 +161,28 @@ class PlannedExplorer:
             depth=min(self._settings.lookahead, situation.left - 1),
             most=max(1, self._settings.weighed // max(1, len(scene.instances))),
             blocked=np.flatnonzero(failed).tolist(),
+            reliability=self._memory.reliability(scene),
         )
         causes = distinct_causes(situation.fit.inconsistencies)
         worth = self._weigh(situation, lookahead, causes)
         values = worth.total
         tried = [self._memory.was_tried(seen, here, instance) for instance in scene.instances]
+        values[1:] *= _MISSED ** np.array([self._memory.missed[i] for i in scene.instances])
         values[0, tried] = -_NOTHING
-        self._thought = Thought(scene, lookahead, worth, values, causes)
+        graph, space = self._graph_of(situation), situation.space
+        self._thought = Thought(scene, lookahead, worth, values, causes, graph, space)
         return self._thought
+
+    def _compare(self, last: Thought, situation: Situation) -> None:
+        """Take note of whether the last skill led where it was said to."""
+        instance = situation.done[-1].instance
+        if last.is_predicted(instance):
+            kept = last.leads(instance, situation.state)
+            self._memory.rely(instance, kept=kept)
+            if self._target is not None and not kept:
+                self._memory.missed[self._target] += 1
+        if self._target is None:
+            self._memory.missed.pop(instance, None)
 
     def choose(self, situation: Situation, thought: Thought) -> NextSkill:
         """What comes of a thought."""
@@ -156,6 +191,7 @@ class PlannedExplorer:
         scores = thought.scores + 1e-6 * self._chance.random(len(thought.scene.instances))
         node, number = (int(n) for n in np.unravel_index(np.argmax(scores), scores.shape))
         first = [*thought.lookahead.path(node), number][0]
+        self._target = thought.scene.instances[number] if node else None
         reason = "drawn by chance, as nothing within reach seems worth a try"
         if not thought.is_idle:
             reason = self._reason(situation, thought, node, number)

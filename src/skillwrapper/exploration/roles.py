@@ -20,6 +20,9 @@ UNTOUCHED = -1
 """The role of an object with which nothing succeeded in this episode."""
 _KEEPS = -2
 
+Kind = tuple[str, tuple[tuple[str, ...], ...]]
+"""A skill and the most specific types of its arguments."""
+
 Roles = NDArray[np.intp]
 """The role of every object of a scene, by number (..., objects)."""
 
@@ -60,6 +63,9 @@ class SceneRoles:
         self.instances = ground_skills(domain.skills, scene.objects)
         place = {o.name: n for n, o in enumerate(scene.objects)}
         types = {o.name: domain.types.most_specific(o.types) for o in scene.objects}
+        self.kinds: list[Kind] = [
+            (i.skill, tuple(types[name] for name in i.arguments)) for i in self.instances
+        ]
         common = _everywhere(self.instances)
         self.places: list[NDArray[np.intp]] = []
         self._given: Roles = np.full((len(self.instances), len(place)), _KEEPS, dtype=np.intp)

@@ -23,23 +23,29 @@ class Weights:
 
     Attributes:
         unproven: newness of an attempt at a skill that never succeeded.
+        unmatched: an attempt that promises most, if the skill never succeeded with arguments of
+            such types.
         failing: newness where the model predicts a failure, times the entropy of how often that
             was wrong of late.
         least_failing: the least of that product.
         working: newness where the model predicts a success, times the like entropy.
-        covered: a combination of roles that was never tried, where success is predicted.
+        covered: a combination of roles that was never tried, where success is predicted, times
+            the entropy of how often such predictions were wrong of late.
         covered_failing: the same where it is not.
+        least_covered: the least of that entropy.
         witness: an attempt like one that the model cannot explain.
         other_witness: an attempt at the same skill, as a share of that.
         fading: what is left of it after every time that it was gone after.
     """
 
     unproven: float = 1.5
+    unmatched: float = 0.5
     failing: float = 0.4
     least_failing: float = 0.05
     working: float = 0.5
     covered: float = 0.3
     covered_failing: float = 0.08
+    least_covered: float = 0.2
     witness: float = 0.8
     other_witness: float = 0.15
     fading: float = 0.75
@@ -109,8 +115,10 @@ def weigh(
     )
     failing = max(weights.least_failing, weights.failing * float(entropy(failures)))
     working = weights.working * float(entropy(successes))
+    doubt = max(weights.least_covered, float(entropy(successes)))
     mix = 0.5 * expected.alone[of_node] + 0.5 * np.sqrt(expected.pairs[of_node])
     mix_done = 0.5 * expected.alone_done[of_node] + 0.5 * np.sqrt(expected.pairs_done[of_node])
+    promise = _relative(expected, scene, unproven)
     new, cover = np.where(sure, 0.0, failing * mix), np.zeros_like(mix)
     for number, instance in enumerate(scene.instances):
         places = scene.places[number]
@@ -118,10 +126,16 @@ def weigh(
             alone = memory.new_roles(instance.skill, lookahead.roles, places)
             alone = np.maximum(alone, expected.alone[of_node, number])
             pairs = np.sqrt(expected.pairs[of_node, number])
-            new[:, number] = weights.unproven * (0.7 * alone + 0.3 * pairs)
+            # What tells the objects of such a skill apart may have no name yet.
+            untried = 1 / (1 + memory.failures[instance])
+            hope = memory.hope(instance.skill) * np.maximum(promise[of_node, number], untried)
+            new[:, number] = weights.unproven * np.maximum(0.7 * alone + 0.3 * pairs, hope)
+        elif (kind := scene.kinds[number]) not in memory.proven:
+            value = weights.unmatched * memory.hope(kind) ** 2 * promise[of_node, number]
+            new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], value))
         unseen = memory.new_signatures(instance.skill, lookahead.roles, places)
         each = np.where(sure[:, number], weights.covered, weights.covered_failing)
-        cover[:, number] = each * unseen
+        cover[:, number] = doubt * each * unseen
     return Worth(
         test=np.where(sure, 0.0, entropy(success) * np.sqrt(success)),
         new=new,
@@ -129,6 +143,22 @@ def weigh(
         cover=cover,
         witness=_witnesses(lookahead, sure | (success > 0.02), scene, memory, causes, weights),
     )
+
+
+def _relative(expected: Expectations, scene: SceneRoles, unproven: frozenset[str]) -> Values:
+    """The promise (states, instances) of attempts beside the most promising one of their kind.
+
+    Of a skill that never succeeded all attempts are of one kind; else those with arguments of the
+    same types are, and what is known of others counts too.
+    """
+    kinds = [k[0] if k[0] in unproven else k for k in scene.kinds]
+    found = np.where(
+        [kind in unproven for kind in kinds], expected.promise, expected.promise * expected.success
+    )
+    for kind in dict.fromkeys(kinds):
+        own = np.array([k == kind for k in kinds], dtype=bool)
+        found[:, own] /= max(float(found[:, own].max(initial=0.0)), 1e-12)
+    return found
 
 
 def _witnesses(

@@ -13,10 +13,11 @@ from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.pruning import find_burdens
 from skillwrapper.invention.rejections import Rejections
 from skillwrapper.invention.ripeness import Ripeness
-from skillwrapper.invention.screening import UNSTEADY, Screen
+from skillwrapper.invention.screening import NOTHING_NEW, UNSTEADY, Screen
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.steadiness import Steadiness
 from skillwrapper.invention.trials import Trial
+from skillwrapper.invention.unnoticed import Shelf, UnnoticedChanges
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Identity, Inconsistency, distinct_causes
@@ -67,13 +68,12 @@ class Inventor:
         self._vocabulary = vocabulary
         self._proposer = proposer
         self._settings = settings
-        domain, labeller = fitter.recorded.domain, fitter.labeller
-        steady = settings.steady and domain.resets_restore_state
-        self._steadiness = (
-            Steadiness(labeller.truth, settings.steady_tolerance, lambda: labeller.misread)
-            if steady
-            else None
+        labeller = fitter.labeller
+        self._steadiness = Steadiness(labeller, settings.steady_tolerance)
+        self._unnoticed = UnnoticedChanges(
+            settings.attempts, everywhere=settings.unnoticed_everywhere
         )
+        self._shelf = Shelf()
         self._ripeness = Ripeness(labeller)
         self._screen = Screen(labeller, self._steadiness, settings)
         self._rejections = Rejections(by_cause=settings.reject_by_cause)
@@ -88,13 +88,13 @@ class Inventor:
 
     def note_start(self, scene: Scene, start: Observation) -> None:
         """Take note of what a reset shows; what is not steady over starts is taken back."""
-        if self._steadiness is None or not self._steadiness.note(scene, start):
+        if not self._settings.steady:
             return
-        active = self._vocabulary.active
-        unsteady = self._steadiness.unsteady((*active, *self._vocabulary.dormant))
+        self._steadiness.note(scene, start)
+        unsteady = self._steadiness.unsteady(self._vocabulary.active)
         self._rejections.ban(unsteady)
-        self._vocabulary.drop(unsteady)
-        for predicate in (p for p in active if p in unsteady):
+        self._drop(unsteady)
+        for predicate in unsteady:
             self._listener(CandidateDecision(Verdict.RETRACTED, predicate, UNSTEADY))
             self._open = frozenset()
 
@@ -117,6 +117,8 @@ class Inventor:
         ``max_trials`` candidates.
         """
         self._admit_new_data()
+        if self._settings.unnoticed:
+            self._look_through_shelf()
         fit = self._mend(ends=self._settings.unnoticed)
         if self._settings.keep_best:
             fit = self._keep_best(fit)
@@ -124,6 +126,13 @@ class Inventor:
         self._rounds_left = self._settings.max_inventions
         self._trials_left = self._settings.max_trials
         return fit
+
+    def _look_through_shelf(self) -> None:
+        """Try candidates again that told nothing new when they were proposed (D26)."""
+        for predicate, asked in self._shelf.take(len(self._fitter.recorded)):
+            if predicate.name not in {p.name for p in self._vocabulary.active}:
+                fit = self._fitter.fit(self._vocabulary.active)
+                self._try(asked, fit, [predicate], dormant=False)
 
     def _mend(self, *, ends: bool = False) -> Fit:
         """Resolve one inconsistency after the other; where an episode ends, unnoticed changes too.
@@ -152,8 +161,14 @@ class Inventor:
         return self._fitter.fit(self._vocabulary.active)
 
     def _keep_best(self, fit: Fit) -> Fit:
-        """Take the vocabulary of the last iteration up again if it leaves less inconsistent."""
-        if fit.witnesses and set(self._best) != set(self._vocabulary.active):
+        """Take the vocabulary of the last iteration up again if it leaves less inconsistent.
+
+        Not if it lacks a name for a change: that often brings inconsistencies up first (D26).
+        """
+        active = self._vocabulary.active
+        new = {p.name for p in active} - {p.name for p in self._best}
+        differs = set(self._best) != set(active) and not new & self._vocabulary.changes
+        if fit.witnesses and differs:
             earlier = self._fitter.fit(self._best)
             if _rank(earlier) < _rank(fit):
                 self._vocabulary.use(self._best)
@@ -172,8 +187,7 @@ class Inventor:
         if new:
             self._executions = executions
             for identity in [i for i in self._attempts if i[0] in new]:
-                if identity[1] is not InconsistencyKind.UNNOTICED:  # bounded for every skill
-                    del self._attempts[identity]
+                del self._attempts[identity]
             self._postponed.clear()
             self._rejections.admit_data_of(new)
 
@@ -187,7 +201,7 @@ class Inventor:
         causes = distinct_causes(self._ripe(fit))
         left = [c for c in causes if self._attempts[c.identity] < tries]
         if not left and unnoticed:
-            left = [c for c in fit.unnoticed if self._attempts[c.identity] < tries]
+            return self._unnoticed.next(fit, len(self._fitter.recorded))
         return min(
             left,
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),
@@ -201,8 +215,13 @@ class Inventor:
     def _causes(self, fit: Fit) -> frozenset[Identity]:
         return frozenset(one.identity for one in self._ripe(fit))
 
-    def _retract(self, predicates: Sequence[Predicate]) -> None:
+    def _drop(self, predicates: Sequence[Predicate]) -> None:
+        """Forget predicates, also as a part of what was best."""
         self._vocabulary.drop(predicates)
+        self._best = tuple(p for p in self._best if p not in predicates)
+
+    def _retract(self, predicates: Sequence[Predicate]) -> None:
+        self._drop(predicates)
         self._rejections.retract(predicates)
         self._attempts.clear()
         for predicate in predicates:
@@ -225,8 +244,10 @@ class Inventor:
         rejected = self._rejections.of(inconsistency.identity)
         shown = pairs[number % len(pairs)]
         proposed = self._proposer.propose(shown, fit.predicates, rejected, number)
-        if not proposed and inconsistency.kind is InconsistencyKind.UNNOTICED:
-            self._attempts[inconsistency.identity] = self._settings.attempts  # that settles it
+        if inconsistency.kind is InconsistencyKind.UNNOTICED:
+            executions, name = len(self._fitter.recorded), inconsistency.skill
+            silent = fit.skill(name).unnoticed is not None
+            self._unnoticed.note(inconsistency, executions, nothing=not proposed, silent=silent)
         fresh = self._vocabulary.fresh(proposed, rejected)
         if self._try(inconsistency, fit, fresh, dormant=False):
             return
@@ -253,7 +274,7 @@ class Inventor:
         for trial in trials:
             self._record(inconsistency, trial, best, worth)
         if best is not None:
-            self._accept(best)
+            self._accept(best, inconsistency)
         else:
             known = self._postponed.get(inconsistency.identity, ())
             self._postponed[inconsistency.identity] = (*known, *(t.predicate for t in good))
@@ -270,10 +291,11 @@ class Inventor:
         if best is not None:
             reason = "the best that came for an inconsistency"
             self._decide(_acceptance(best), inconsistency, best, reason)
-            self._accept(best)
+            self._accept(best, inconsistency)
 
-    def _accept(self, trial: Trial) -> None:
-        self._vocabulary.accept(trial.predicate)
+    def _accept(self, trial: Trial, inconsistency: Inconsistency) -> None:
+        for_change = inconsistency.kind is InconsistencyKind.UNNOTICED
+        self._vocabulary.accept(trial.predicate, for_change=for_change)
         self._postponed.clear()
 
     def _promising(
@@ -281,9 +303,12 @@ class Inventor:
     ) -> list[Predicate]:
         """The candidates of which nothing speaks against labelling them everywhere."""
         promising = []
-        for predicate, flaw in self._screen.flaws(inconsistency, candidates):
+        vocabulary = self._vocabulary.active
+        for predicate, flaw in self._screen.flaws(inconsistency, candidates, vocabulary):
             if not flaw:
                 promising.append(predicate)
+            elif flaw == NOTHING_NEW:
+                self._shelf.put(predicate, inconsistency, len(self._fitter.recorded))
             elif not dormant:
                 self._reject(predicate, inconsistency, flaw)
                 self._listener(CandidateDecision(Verdict.REJECTED, predicate, flaw, inconsistency))

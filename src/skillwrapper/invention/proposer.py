@@ -69,6 +69,7 @@ class ModelProposer:
             rejected=tuple(rejected),
             count=self._settings.candidates,
             attempt=attempt,
+            wide=inconsistency.wide,
         )
         found = self._adviser.invent_predicates(question).predicates
         return tuple(dict.fromkeys(shaped for p in found for shaped in self._shaped(p)))
@@ -93,7 +94,10 @@ class ModelProposer:
         return self._rephrased[predicate]
 
     def _types(self, inconsistency: Inconsistency) -> tuple[str, ...]:
-        """The skill's types; for an unexplained change also those of its objects (D1)."""
+        """The skill's types; for an unexplained change also those of its objects (D1).
+
+        For one of other objects than the arguments, those of all things that skills take.
+        """
         domain = self._recorded.domain
         skill = domain.skill_by_name[inconsistency.skill]
         types = dict.fromkeys(p.type for p in skill.parameters)
@@ -101,4 +105,6 @@ class ModelProposer:
             for atom in inconsistency.unexplained:
                 for term in atom.terms:
                     types.update(dict.fromkeys(domain.object_by_name[term].types))
+        if inconsistency.wide:
+            types.update(dict.fromkeys(p.type for s in domain.skills for p in s.parameters))
         return tuple(types)

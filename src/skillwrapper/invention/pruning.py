@@ -10,10 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from skillwrapper.grounding import UNKNOWN
+from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.symbols import Predicate
+
+_CHANGE = 1.0
+"""A change that has a name is worth as much as a transition that is predicted rightly (D26)."""
 
 
 @dataclass(frozen=True)
@@ -55,16 +59,19 @@ def find_burdens(
     remaining = list(vocabulary.active)
     whole = fitter.fit(remaining)
     allowed = whole if keeps_consistent else None
-    lowest, best = whole.cost, tuple(remaining)
+    lowest, best, lost = whole.cost, tuple(remaining), 0.0
     while left := [p for p in remaining if p not in spared]:
         cheapest, cost = None, math.inf
         for predicate in reversed(left):
-            less = _cost_without(fitter, remaining, predicate, cost, allowed)
+            worth = _CHANGE if predicate.name in vocabulary.changes else 0.0
+            limit = cost - worth - lost
+            less = worth + lost + _cost_without(fitter, remaining, predicate, limit, allowed)
             if less < cost:
                 cheapest, cost = predicate, less
         if cheapest is None:
             break
         remaining.remove(cheapest)
+        lost += _CHANGE if cheapest.name in vocabulary.changes else 0.0
         if cost < lowest:
             lowest, best = cost, tuple(remaining)
     return tuple(p for p in vocabulary.active if p not in best)
@@ -135,9 +142,21 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
         predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
         tried.add(predicate)
         without = fitter.fit([p for p in vocabulary.active if p != predicate])
+        if predicate.name in vocabulary.changes and not _follows(fitter, vocabulary, predicate):
+            continue
         if all(_is_as_good(one, fit.skill(one.skill)) for one in without.each()):
             vocabulary.set_dormant(predicate)
             pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
+
+
+def _follows(fitter: Fitter, vocabulary: Vocabulary, predicate: Predicate) -> bool:
+    """Whether the others tell apart all pictures that a predicate tells apart."""
+    others = [p for p in vocabulary.active if p != predicate]
+    for scene in fitter.recorded.scenes:
+        own, rest = (fitter.labeller.values(scene, ps) for ps in ([predicate], others))
+        if len(different_rows(np.hstack([rest, own]))[0]) > len(different_rows(rest)[0]):
+            return False
+    return True
 
 
 def _is_as_good(fit: SkillFit, other: SkillFit) -> bool:

@@ -29,6 +29,7 @@ class InventionQuestion:
         current: the present vocabulary.
         rejected: candidates that were tried and rejected.
         count: how many candidates are wanted.
+        wide: for UNNOTICED whether the change may be one of other objects than the arguments.
         attempt: 0 for the first time the question is asked, then 1, 2, ...
     """
 
@@ -43,6 +44,7 @@ class InventionQuestion:
     rejected: tuple[Predicate, ...]
     count: int
     attempt: int = 0
+    wide: bool = False
 
 
 @dataclass(frozen=True)

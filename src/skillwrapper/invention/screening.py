@@ -6,13 +6,16 @@ from collections.abc import Iterator, Sequence
 
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.steadiness import Steadiness
+from skillwrapper.invention.unnoticed import tells_more
 from skillwrapper.invention.witnesses import Witnesses
 from skillwrapper.learning.inconsistencies import Inconsistency
+from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
 
 ALIKE = "does not tell the two transitions apart"
-UNSTEADY = "reads differently at starts that are the same state"
+NOTHING_NEW = "tells no pictures apart that look alike so far"
+UNSTEADY = "reads differently where the state is the same"
 
 
 class Screen:
@@ -20,26 +23,42 @@ class Screen:
 
     Args:
         labeller: holds the transitions, and labels their pictures.
-        steadiness: knows the starts; None if these need not be alike.
+        steadiness: knows which pictures show the same state.
         settings: whether the inconsistency is looked at, and how much of it.
     """
 
     def __init__(
-        self, labeller: Labeller, steadiness: Steadiness | None, settings: LearningSettings
+        self, labeller: Labeller, steadiness: Steadiness, settings: LearningSettings
     ) -> None:
         self._labeller = labeller
         self._steadiness = steadiness
         self._settings = settings
 
     def flaws(
-        self, inconsistency: Inconsistency, candidates: Sequence[Predicate]
+        self,
+        inconsistency: Inconsistency,
+        candidates: Sequence[Predicate],
+        vocabulary: Sequence[Predicate],
     ) -> Iterator[tuple[Predicate, str]]:
-        """What is wrong with each candidate, in their order; empty if nothing is."""
-        alike = self._alike(inconsistency, candidates) if self._settings.screen else set()
-        telling = [p for p in candidates if p not in alike]
-        unsteady = self._steadiness.unsteady(telling) if self._steadiness else ()
+        """What is wrong with each candidate, in their order; empty if nothing is.
+
+        Args:
+            inconsistency: what they were proposed for.
+            candidates: the candidates.
+            vocabulary: what is known already.
+        """
+        flaws: dict[Predicate, str] = {}
+        if self._settings.screen:
+            flaws |= dict.fromkeys(self._alike(inconsistency, candidates), ALIKE)
+        telling = [p for p in candidates if p not in flaws]
+        if self._settings.steady:
+            flaws |= dict.fromkeys(self._steadiness.unsteady(telling), UNSTEADY)
+        if inconsistency.kind is InconsistencyKind.UNNOTICED and vocabulary:
+            telling = [p for p in candidates if p not in flaws]
+            more = tells_more(self._labeller, vocabulary, inconsistency, telling)
+            flaws |= {p: NOTHING_NEW for p in telling if p not in more}
         for predicate in candidates:
-            yield predicate, _flaw(predicate in alike, predicate in unsteady)
+            yield predicate, flaws.get(predicate, "")
 
     def _alike(
         self, inconsistency: Inconsistency, candidates: Sequence[Predicate]
@@ -52,7 +71,3 @@ class Screen:
             witnesses.look(left)
             alike -= {p for p in left if witnesses.are_told_apart(p)}
         return alike
-
-
-def _flaw(is_alike: bool, is_unsteady: bool) -> str:
-    return ALIKE if is_alike else UNSTEADY if is_unsteady else ""

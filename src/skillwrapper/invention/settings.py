@@ -54,8 +54,8 @@ class LearningSettings(LearnerSettings):
     )
     steady: bool = Field(
         default=True,
-        description="whether predicates must read the same at every start, where the domain "
-        "declares that resets restore the state",
+        description="whether predicates must read the same where the state is the same: at every "
+        "start, if the domain declares that resets restore the state, and around failures",
     )
     steady_tolerance: float = Field(
         default=0.0,
@@ -83,6 +83,10 @@ class LearningSettings(LearnerSettings):
         default=True,
         description="whether the model is asked what has changed where all successes of a skill "
         "change nothing in the vocabulary (D26)",
+    )
+    unnoticed_everywhere: bool = Field(
+        default=True,
+        description="whether that is asked of every change too: what else has changed (D26)",
     )
     new_causes: bool = Field(
         default=True,

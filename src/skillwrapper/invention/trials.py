@@ -54,8 +54,9 @@ class Trial:
         """
         skill = fit.skill(inconsistency.skill)
         if inconsistency.kind is InconsistencyKind.UNNOTICED:
-            score, remains = skill.score(inconsistency.kind), skill.unnoticed is not None
-            return cls(predicate, dormant, fit, score, remains=remains, undecided=False)
+            # A change has its name, even if what it hangs on has none yet: no score is asked for.
+            remains = skill.unnoticed is not None
+            return cls(predicate, dormant, fit, 1.0, remains=remains, undecided=False)
         decides_one = any(
             i.witness not in skill.witnesses and i.culprit not in skill.undecided
             for i in before.skill(inconsistency.skill).inconsistencies

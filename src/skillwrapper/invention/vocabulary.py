@@ -19,12 +19,15 @@ class Vocabulary:
         active: predicates that take part in learning.
         dormant: predicates set aside; they keep their labels and are tried again before the
             model is asked (D9).
+        changes: names of predicates that were taken for what else a skill changes (D26): nothing
+            need hang on them but goals.
     """
 
     def __init__(self, types: TypeHierarchy, active: Sequence[Predicate] = ()) -> None:
         self._types = types
         self.active: tuple[Predicate, ...] = tuple(active)
         self.dormant: tuple[Predicate, ...] = ()
+        self.changes: frozenset[str] = frozenset()
 
     def fresh(
         self, proposed: Iterable[Predicate], rejected: Iterable[Predicate] = ()
@@ -50,8 +53,10 @@ class Vocabulary:
         """The active predicates with a candidate, which replaces one of its name."""
         return (*(p for p in self.active if p.name != predicate.name), predicate)
 
-    def accept(self, predicate: Predicate) -> None:
-        """Take a candidate or a dormant predicate into use."""
+    def accept(self, predicate: Predicate, *, for_change: bool = False) -> None:
+        """Take a candidate or a dormant predicate into use, perhaps for a change alone (D26)."""
+        if for_change:
+            self.changes |= {predicate.name}
         self.active = self.with_candidate(predicate)
         self.dormant = tuple(p for p in self.dormant if p.name != predicate.name)
 

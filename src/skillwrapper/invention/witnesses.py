@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillwrapper.grounding import UNKNOWN, AtomSpace, Labels
+import numpy as np
+
+from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
@@ -47,6 +49,8 @@ class Witnesses:
         """Whether a candidate shows a difference, or the unexplained change."""
         first, second = self._inconsistency.first, self._inconsistency.second
         if second is None:
+            if self._relates(first, predicate):
+                return True
             terms = [literal.atom.terms for literal in self._changed(first, predicate)]
             things = self._things()
             return any(things.intersection(own) or not own for own in terms)
@@ -54,11 +58,23 @@ class Witnesses:
             return self._lifted_change(first, predicate) != self._lifted_change(second, predicate)
         return self._start(first, predicate) != self._start(second, predicate)
 
+    def _relates(self, number: int, predicate: Predicate) -> bool:
+        """Whether a relation ties what changed unexplained to an argument, unchanged."""
+        if self._inconsistency.kind is not InconsistencyKind.UNEXPLAINED:
+            return False
+        space, labels = self._labels(number, predicate)
+        arguments = set(self._records[number].transition.instance.arguments)
+        things = self._things() - arguments
+        held = (space.atoms[i] for i in np.flatnonzero(labels[0] == TRUE))
+        return any(things & set(a.terms) and arguments & set(a.terms) for a in held)
+
     def _things(self) -> set[str]:
         """The objects about which something must have changed."""
         if self._inconsistency.kind is InconsistencyKind.UNNOTICED:
             number = self._inconsistency.first
-            return set(self._records[number].transition.instance.arguments)
+            record = self._records[number]
+            wide = self._inconsistency.wide
+            return set(record.scene.names if wide else record.transition.instance.arguments)
         return {term for atom in self._inconsistency.unexplained for term in atom.terms}
 
     def _pictures(self, number: int) -> list[Observation]:

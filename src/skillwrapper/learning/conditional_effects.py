@@ -87,12 +87,18 @@ def _signed_pattern(literal: Literal, objects: Sequence[str]) -> tuple[SignedPat
 
 
 def _ranging_changes(groups: Sequence[Group]) -> frozenset[SignedPattern]:
-    """Changes around the arguments that some transition made with several other objects."""
+    """Changes that some transition made with several other objects, or with an unconnected one.
+
+    What is changed and connected to nothing may stand in a relation that does not change: what is
+    in a machine is washed, and stays in it.
+    """
     found: set[SignedPattern] = set()
     for group in groups:
-        patterns = (_signed_pattern(x, group.instance.arguments) for x in group.changed)
-        counts = Counter(p[0] for p in patterns if p is not None)
+        patterns = [(_signed_pattern(x, group.instance.arguments), x) for x in group.changed]
+        counts = Counter(p[0] for p, _ in patterns if p is not None)
         found.update(change for change, number in counts.items() if number > 1)
+        strange = group.lifting.unexplained
+        found.update(p[0] for p, x in patterns if p is not None and x.atom in strange)
     return frozenset(found)
 
 
@@ -211,6 +217,8 @@ def _find_rule(
         if not _holds_somewhere(condition, unchanged):
             simplest = _simplest(condition, patterns, unchanged)
             literals = sorted((patterns[i], truth) for i, truth in simplest.items())
+            if len(terms) == 1 and not any(len(p[1]) > 1 and truth for p, truth in literals):
+                return None  # nothing ties it to the core's objects
             return _Rule(change, tuple(literals), types)
     return None
 
@@ -221,11 +229,13 @@ def _simplest(
     """A condition that holds of nothing unchanged, without what it can do without.
 
     Properties go before relations to the core's objects, and what is false before what is true.
+    Some relation that holds is left if there is one.
     """
     left = dict(condition)
+    ties = {i for i, truth in condition.items() if truth and len(patterns[i][1]) > 1}
     for number in sorted(condition, key=lambda i: (len(patterns[i][1]), condition[i], patterns[i])):
         fewer = {i: truth for i, truth in left.items() if i != number}
-        if fewer and not _holds_somewhere(fewer, unchanged):
+        if fewer and not _holds_somewhere(fewer, unchanged) and (not ties or ties & fewer.keys()):
             left = fewer
     return left
 

@@ -1,13 +1,15 @@
 """Operators that predict more than one change are mended before anything is invented (D5).
 
-In this order: split a cluster by the types of its objects; add literals between context objects,
-which tells bindings apart; conditional effects where a change ranges over a set. The first two are
-used only if they remove every wrong prediction of the operator that they replace, conditional
-effects only if they predict more transitions rightly, or as many with fewer operators.
+In this order: split a cluster by the types of its objects; add what stands between and around
+context objects, which tells bindings apart; conditional effects where a change ranges over a set.
+The first two are used only if they remove every wrong prediction of the operator that they replace,
+conditional effects only if they predict more transitions rightly, or as many with fewer operators.
+A cluster is also split by types if a combination of types that never worked fails again and again.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -24,6 +26,9 @@ from skillwrapper.learning.operators import LearnedOperator, cluster_operators, 
 from skillwrapper.learning.predictions import Predictor
 from skillwrapper.transitions.tables import Group, SkillData
 
+_OFTEN = 3
+"""So many failures of a combination of types, and no success, are no accident."""
+
 
 def fit_skill(language: OperatorLanguage, data: SkillData) -> SkillFit:
     """Learn one skill: its operators, mended as far as the vocabulary allows.
@@ -39,7 +44,7 @@ def fit_skill(language: OperatorLanguage, data: SkillData) -> SkillFit:
     chosen: list[LearnedOperator] = []
     for learned in plain:
         mended = _mend(language, predictor, learned) if _mistakes(predictor, [learned]) else ()
-        chosen += mended or [learned]
+        chosen += mended or _restrict(language, predictor, learned) or [learned]
     cores = cluster_by_core(clusters)
     if cores and (cost := _cost(predictor, chosen)) > (0, len(cores)):
         ranging = learn_with_conditional_effects(language, cores)
@@ -80,12 +85,57 @@ def _mend(
     return ()
 
 
+def _restrict(
+    language: OperatorLanguage, predictor: Predictor, learned: LearnedOperator
+) -> tuple[LearnedOperator, ...]:
+    """Operators of fewer combinations of types, if failures tell that the others never work.
+
+    Combinations that worked are joined again as long as that predicts no more failures to work.
+    Nothing if no combination of types failed often enough where the operator applies.
+    """
+    worked = {tuple(group.types[: language.arity]) for group in learned.cluster.groups}
+    parts = _split_by_types(learned.cluster)
+    if len(parts) < 2 or not _refuted(predictor, learned) - worked:
+        return ()
+    name = learned.operator.name
+    found: list[tuple[Cluster, LearnedOperator]] = []
+    for part in parts:
+        alone = operator_of(language, part, name)
+        for place, (cluster, operator) in enumerate(found):
+            joined = Cluster(part.change, (*cluster.groups, *part.groups))
+            together = operator_of(language, joined, name)
+            if _failures(predictor, [together]) <= _failures(predictor, [operator, alone]):
+                found[place] = joined, together
+                break
+        else:
+            found.append((part, alone))
+    operators = tuple(operator for _, operator in found)
+    return operators if not _mistakes(predictor, operators) else ()
+
+
+def _refuted(predictor: Predictor, learned: LearnedOperator) -> set[tuple[tuple[str, ...], ...]]:
+    """Types of arguments with which skills often failed where an operator applies."""
+    failed: Counter[tuple[tuple[str, ...], ...]] = Counter()
+    for prediction in predictor.predict([learned]):
+        table = prediction.table
+        for row in np.flatnonzero(~table.success & (prediction.executable == TRUE)).tolist():
+            failed[table.argument_types(row)] += 1
+    return {types for types, times in failed.items() if times >= _OFTEN}
+
+
+def _failures(predictor: Predictor, operators: Sequence[LearnedOperator]) -> int:
+    """How many failures are predicted to work."""
+    return sum(
+        int((~p.table.success & (p.executable == TRUE)).sum()) for p in predictor.predict(operators)
+    )
+
+
 def _variants(cluster: Cluster) -> Iterator[tuple[tuple[Cluster, ...], bool]]:
     """(clusters, literals between context objects) to try, the mildest first."""
     parts = _split_by_types(cluster)
     if len(parts) > 1:
         yield parts, False
-    if cluster.context > 1:
+    if cluster.context:
         yield (cluster,), True
 
 

@@ -42,6 +42,7 @@ class Inconsistency:
         unexplained: for UNEXPLAINED the changed atoms connected to nothing.
         partners: numbers of the transitions that the culprit can be shown beside, the one that
             differs least first; for UNNOTICED those that can be shown in its place.
+        wide: for UNNOTICED whether the change may be one of other objects than the arguments.
     """
 
     kind: InconsistencyKind
@@ -52,6 +53,7 @@ class Inconsistency:
     identity: Identity = field(repr=False)
     unexplained: tuple[Atom, ...] = ()
     partners: tuple[int, ...] = ()
+    wide: bool = False
 
     @property
     def witness(self) -> Witness:

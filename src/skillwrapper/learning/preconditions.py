@@ -7,7 +7,8 @@ Three kinds of evidence (D2, D10):
 * existential context: in every transition some other object stood in the relation.
 
 A literal must speak of an argument of the skill, or of one context object alone (the paper's
-restriction, Section 3.3); literals between context objects are added only on demand (D5).
+restriction, Section 3.3); literals between context objects, absences and existential context
+around them are added only on demand (D5).
 """
 
 from __future__ import annotations
@@ -67,13 +68,14 @@ def gather_evidence(
     Args:
         groups: groups of one cluster, at least one.
         language: what may be said of it.
-        between_context: also literals between context objects (D5).
+        between_context: also literals between context objects, and what other objects stand in
+            relations to them (D5).
     """
     predicates, arity, settings = language.predicates, language.arity, language.settings
     bundles = tuple(bundle_groups(groups))
     size = len(groups[0].lifting.objects)
     plain = tuple(_plain_patterns(predicates, arity, size, between_context))
-    patterns = tuple(_open_patterns(predicates, arity))
+    patterns = tuple(_open_patterns(predicates, size if between_context else arity))
     relations = [_Relations.of(bundle, patterns, size) for bundle in bundles]
     absent = _never(relations) if settings.absences else []
     return Evidence(

@@ -133,6 +133,10 @@ class SkillTable:
         """The types of every object."""
         return {o.name: o.types for o in self.space.objects}
 
+    def argument_types(self, row: int) -> tuple[tuple[str, ...], ...]:
+        """The types of the arguments of a transition."""
+        return tuple(self.types[name] for name in self.instances[self.which[row]].arguments)
+
     def changed_literals(self, row: int) -> list[Literal]:
         """The literals that became true in a transition."""
         return changed_literals(self.space, self.change[row])

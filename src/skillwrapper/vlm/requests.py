@@ -46,10 +46,10 @@ class Slot:
 def allowed_slots(question: InventionQuestion) -> tuple[Slot, ...]:
     """How often a new predicate may use each allowed type.
 
-    For an unexplained change any two of the types will do; for all other kinds the parameters
+    For a change of other objects any two of the types will do; for all other kinds the parameters
     are among the skill's own (docs/semantics.md D1), so a type counts as often as the skill has it.
     """
-    if question.kind is InconsistencyKind.UNEXPLAINED:
+    if question.wide or question.kind is InconsistencyKind.UNEXPLAINED:
         return tuple(Slot(name, 2) for name in dict.fromkeys(question.types))
     own = Counter(p.type for p in question.skill.parameters)
     named = Counter(question.types)
@@ -113,6 +113,8 @@ class RequestBuilder:
         }
         if question.kind is InconsistencyKind.UNEXPLAINED:
             variables["unexplained"] = question.unexplained
+        if question.kind is InconsistencyKind.UNNOTICED:
+            variables["wide"] = question.wide
         prompt = self._prompts.render(_INVENTION_PROMPTS[question.kind], **variables)
         return self._request(Role.INVENT, question.domain, prompt, pictures)
 

@@ -1,0 +1,156 @@
+"""Changes that no predicate tells yet (D26): of which successes the model is asked what changed.
+
+First come skills of which all successes seem to change nothing, then what else skills may change.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from skillwrapper.grounding import UNKNOWN, AtomSpace
+from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.learning.inconsistencies import Inconsistency
+from skillwrapper.learning.kinds import InconsistencyKind
+from skillwrapper.perception.labelling import Labeller
+from skillwrapper.symbols import Predicate
+from skillwrapper.transitions.lifting import LiftedChange
+
+_GROWTH = 1.5
+_ALIKE = 4
+"""So many pictures that look alike to the vocabulary are compared with one another."""
+
+_Key = tuple[bytes, LiftedChange]
+
+
+class UnnoticedChanges:
+    """Chooses successes to ask about, more rarely the more was executed.
+
+    After "nothing", a skill of which all successes seem to change nothing is asked about again, in
+    another state and with other objects in view, which may be in its arguments or on them, as soon
+    as half as much again was executed. Of other skills, every change is asked about once.
+
+    Args:
+        most: questions for each skill, those apart that were answered with nothing.
+        everywhere: whether to ask also of skills that are known to change something.
+    """
+
+    def __init__(self, most: int, *, everywhere: bool) -> None:
+        self._most, self._everywhere = most, everywhere
+        self._asked: Counter[str] = Counter()
+        self._next: dict[str, float] = {}
+        self._shown: Counter[int] = Counter()
+        self._settled: set[tuple[object, ...]] = set()
+
+    def next(self, fit: Fit, executions: int) -> Inconsistency | None:
+        """What to ask about next; None if there is nothing.
+
+        Args:
+            fit: what is learned.
+            executions: how many skills were executed so far.
+        """
+        silent = [of_skill for of_skill in fit.each() if of_skill.unnoticed is not None]
+        others = [s for s in fit.each() if s not in silent] if self._everywhere else []
+        for of_skill in (*silent, *others):
+            name = of_skill.skill
+            if self._asked[name] < self._most and executions >= self._next.get(name, 0):
+                found = max(self._open(of_skill), default=None)
+                if found is not None:
+                    wide = of_skill in silent and name in self._next
+                    return _question(name, abs(found[1]), found[2], wide=wide)
+        return None
+
+    def note(self, asked: Inconsistency, executions: int, *, nothing: bool, silent: bool) -> None:
+        """Take note of a question, and of whether it was answered with nothing."""
+        self._shown[asked.culprit] += 1
+        if nothing and silent:
+            self._next[asked.skill] = _GROWTH * executions
+        else:
+            self._asked[asked.skill] += 1
+        if nothing or not silent:
+            (state,), change = asked.identity[2:]
+            self._settled.add((asked.skill, state, change))
+
+    def _open(self, of_skill: SkillFit) -> Iterator[tuple[int, int, _Key]]:
+        """Successes that may be asked about: how seldom one was shown, order, what it exemplifies.
+
+        Where nothing seems to change, the latest one in every state that was not shown yet.
+        """
+        silent = of_skill.unnoticed is not None
+        for prediction in of_skill.predictions:
+            table = prediction.table
+            for group in table.successes:
+                change = group.lifting.change
+                for row in group.rows[~table.unchanged[group.rows] & ~table.hanging[group.rows]]:
+                    number, state = int(table.ids[row]), table.before[row].tobytes()
+                    example = (state, change) if silent else (b"", change)
+                    if (of_skill.skill, *example) not in self._settled:
+                        yield -self._shown[number], number if silent else -number, example
+
+
+def _question(skill: str, number: int, example: _Key, *, wide: bool) -> Inconsistency:
+    kind = InconsistencyKind.UNNOTICED
+    return Inconsistency(
+        kind,
+        skill,
+        first=number,
+        second=None,
+        culprit=number,
+        identity=(skill, kind, (example[0],), example[1]),
+        wide=wide,
+    )
+
+
+class Shelf:
+    """Candidates for unnoticed changes that tell no pictures apart which look alike so far.
+
+    Each is looked at again when twice as much was executed.
+    """
+
+    def __init__(self) -> None:
+        self._kept: dict[Predicate, tuple[Inconsistency, int]] = {}
+
+    def put(self, predicate: Predicate, asked: Inconsistency, executions: int) -> None:
+        """Keep a candidate for later."""
+        self._kept[predicate] = asked, 2 * executions
+
+    def take(self, executions: int) -> list[tuple[Predicate, Inconsistency]]:
+        """Those for which it is time; they are kept no more."""
+        due = [(p, asked) for p, (asked, when) in self._kept.items() if executions >= when]
+        for predicate, _ in due:
+            del self._kept[predicate]
+        return due
+
+
+def tells_more(
+    labeller: Labeller,
+    vocabulary: Sequence[Predicate],
+    asked: Inconsistency,
+    candidates: Sequence[Predicate],
+) -> set[Predicate]:
+    """The candidates that tell pictures apart which are alike to the vocabulary.
+
+    They are looked for among those that look like the ones before and after the success.
+    """
+    record = labeller.recorded.records[asked.culprit]
+    scene = record.scene
+    observations = labeller.recorded.observations(scene)
+    states = labeller.values(scene, vocabulary)
+    alike = []
+    for place in dict.fromkeys((record.before, record.after)):
+        same = np.flatnonzero((states == states[place]).all(axis=1))
+        nearest = [n for n in same.tolist() if n != place][-_ALIKE:]
+        alike.append([observations[n] for n in (place, *nearest)])
+    seen = [o for group in alike for o in group]
+    labeller.truth.prefetch((AtomSpace((p,), scene.objects), seen) for p in candidates)
+    telling = set()
+    for predicate in candidates:
+        space = AtomSpace((predicate,), scene.objects)
+        for group in alike:
+            labels = labeller.truth.labels(space, group)
+            known = (labels != UNKNOWN).all(axis=0)
+            if (labels[:, known] != labels[0, known]).any():
+                telling.add(predicate)
+    return telling
