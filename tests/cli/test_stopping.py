@@ -73,6 +73,23 @@ def test_signals(number: signal.Signals, code: int, kind: str, tmp_path: Path) -
     assert not [p for p in (tmp_path / "run").rglob("*") if "tmp" in p.suffix]
 
 
+def test_a_signal_while_everything_is_still_being_loaded(tmp_path: Path) -> None:
+    """The first second of a command once ended in a traceback."""
+    code = "import sys, skillwrapper.__main__ as m; print(flush=True); sys.argv[1:] = ['--help']; "
+    process = subprocess.Popen(
+        [sys.executable, "-c", code + "m.main()"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    process.stdout.readline()
+    time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    returned, said = ended(process)
+    assert (returned, "Traceback" in said) == (130, False)
+
+
 @pytest.mark.parametrize("kind", ["rate-limit", "slow"])
 def test_a_limit_on_time(kind: str, tmp_path: Path) -> None:
     with busy_for(60, kind) as server:

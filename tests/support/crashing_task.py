@@ -1,9 +1,10 @@
-"""A task that kills its own process the first time it is run for some cells."""
+"""Tasks that kill their own process, or take too long."""
 
 from __future__ import annotations
 
 import os
 import signal
+import time
 from pathlib import Path
 
 from skillwrapper.evaluation.benchmark.running import CellOutcome
@@ -18,4 +19,15 @@ def crash_once(path: Path, cell: Cell) -> CellOutcome:
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
     (path / cell.name).touch()
+    return CellOutcome(cell)
+
+
+def take_long(path: Path, cell: Cell) -> CellOutcome:
+    """Leaves a file behind as long as it is at work."""
+    open_file = path / cell.name
+    open_file.touch()
+    try:
+        time.sleep(60)
+    finally:
+        open_file.unlink()
     return CellOutcome(cell)

@@ -23,7 +23,7 @@ from skillwrapper.cli.setting_options import (
     options_given,
     run_settings,
 )
-from skillwrapper.cli.stopping import time_limit
+from skillwrapper.cli.time_limits import time_limit
 from skillwrapper.runs.estimate import estimate_run
 from skillwrapper.runs.launch import learn as run_learning
 from skillwrapper.runs.models import check_models

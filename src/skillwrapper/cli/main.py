@@ -23,7 +23,7 @@ from skillwrapper.cli import (
     verification,
 )
 from skillwrapper.cli.output import messages
-from skillwrapper.cli.stopping import StopSignals
+from skillwrapper.cli.stopping import stoppable
 from skillwrapper.errors import InternalError, LimitReachedError, SkillWrapperError
 from skillwrapper.redaction import redact
 
@@ -53,21 +53,17 @@ for group in _GROUPS:
 
 
 def main() -> None:
+    """Run the command line, and end it when a signal says so."""
+    stoppable(run)
+
+
+def run() -> None:
     """Run the command line; a mistake of the user's ends with one sentence and exit code 2."""
-    with StopSignals() as stop:
-        try:
-            app()
-        except SkillWrapperError as error:
-            _tell(error)
-            sys.exit(error.exit_code)
-        except (KeyboardInterrupt, SystemExit) as ended:
-            if stop.received is None:
-                raise
-            said = (
-                "stopped; everything that was finished is kept: run the same command again to go on"
-            )
-            messages().print(Text(said, "yellow"), soft_wrap=True)
-            raise SystemExit(stop.exit_code) from ended
+    try:
+        app()
+    except SkillWrapperError as error:
+        _tell(error)
+        sys.exit(error.exit_code)
 
 
 def _tell(error: SkillWrapperError) -> None:

@@ -1,21 +1,37 @@
-"""Stopping a command from outside: Ctrl-C, SIGTERM, SIGHUP, and a limit on time.
+"""Stopping a command from outside: Ctrl-C, SIGTERM and SIGHUP.
 
 All of them interrupt whatever the main thread does, so that what is open is closed in the usual
-way: children end, temporary files go, what was finished stays.
+way: children end, temporary files go, what was finished stays. Nothing but the standard library is
+imported here: signals may come while everything else is still being loaded.
 """
 
 from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
+import sys
+from collections.abc import Callable
 from types import FrameType, TracebackType
 from typing import Self
 
-from skillwrapper.vlm.limits import time_is_up
-
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_SAID = "stopped; everything that was finished is kept: run the same command again to go on"
+
+
+def stoppable(work: Callable[[], object]) -> None:
+    """Do what signals may end: with a sentence, and the exit code that shells give it.
+
+    Raises:
+        SystemExit: if a signal came.
+    """
+    with StopSignals() as stop:
+        try:
+            work()
+        except BaseException as ended:  # whatever libraries make of an interruption
+            if stop.received is None:
+                raise
+            print(_SAID, file=sys.stderr)  # noqa: T201
+            raise SystemExit(stop.exit_code) from ended
 
 
 class StopSignals:
@@ -55,30 +71,3 @@ class StopSignals:
             return
         self.received = signal.Signals(number)
         raise KeyboardInterrupt
-
-
-@contextmanager
-def time_limit(seconds: float | None) -> Iterator[None]:
-    """Let a block take so long at the most, also while it waits for a server.
-
-    Args:
-        seconds: from now on; None for no limit.
-
-    Raises:
-        LimitReachedError: when the time is up, out of whatever is done then.
-    """
-    if seconds is None:
-        yield
-        return
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise time_is_up(seconds)
-
-    before = signal.signal(signal.SIGALRM, stop)
-    # The budget of calls has the same limit and is exact; this is for what it cannot interrupt.
-    signal.setitimer(signal.ITIMER_REAL, seconds + 0.5)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)

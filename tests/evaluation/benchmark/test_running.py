@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import time
 from pathlib import Path
 
 import pytest
-from crashing_task import crash_once
+from crashing_task import crash_once, take_long
 
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.benchmark import running
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.evaluation.benchmark.experiments import Experiment, ProblemChoice
+from skillwrapper.evaluation.benchmark.processes import Processes, open_workers
 from skillwrapper.evaluation.benchmark.running import (
     ERROR,
     CellOutcome,
     OwnProcess,
-    Processes,
-    open_workers,
     run_experiment,
 )
 from skillwrapper.evaluation.methods.cell import Cell
@@ -148,6 +149,20 @@ def test_killed_process_costs_an_attempt(tmp_path: Path) -> None:
     assert not any(o.error for o in outcomes)
     assert all((tmp_path / cell.name).exists() for cell in cells)
     assert (tmp_path / "crashed-1").exists()
+
+
+def test_processes_that_are_stopped_close_what_is_open_and_leave_nobody(tmp_path: Path) -> None:
+    """As long as a cell took, an interrupted experiment once waited for it."""
+    processes = Processes(tmp_path, 2, take_long)
+    cells = [Cell("ours", "burger", seed, "none") for seed in range(3)]
+    for cell in cells:
+        processes.submit(cell)
+    latest = time.monotonic() + 30
+    while len(list(tmp_path.iterdir())) < 2 and time.monotonic() < latest:
+        time.sleep(0.01)
+    processes.stop()
+    assert not list(tmp_path.iterdir())
+    assert not multiprocessing.active_children()
 
 
 @pytest.mark.slow

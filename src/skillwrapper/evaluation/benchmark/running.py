@@ -1,21 +1,18 @@
-"""Running an experiment: every cell once, here or in several processes, sources first."""
+"""Running an experiment: every cell once, sources first."""
 
 from __future__ import annotations
 
-import multiprocessing
 import traceback
 from collections import deque
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing, contextmanager
+from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Protocol
 
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import InternalError, SkillWrapperError
+from skillwrapper.errors import SkillWrapperError
 from skillwrapper.evaluation.benchmark.cells import run_cell
 from skillwrapper.evaluation.benchmark.experiment_folder import ERROR, ExperimentFolder
 from skillwrapper.evaluation.exact.exact_states import ExactStates
@@ -24,9 +21,6 @@ from skillwrapper.evaluation.methods.method import CellContext
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.files.writing import remove_leftovers, write_atomically
 from skillwrapper.redaction import redact
-
-_RETRIES = 3
-"""How often a cell is tried again whose process was killed."""
 
 
 @dataclass(frozen=True)
@@ -156,73 +150,3 @@ class OwnProcess:
     def next(self) -> CellOutcome:
         """Run the next cell."""
         return work(self._path, self._cells.popleft())
-
-
-class Processes:
-    """Runs cells in processes of their own; a killed process costs its cell another attempt.
-
-    Args:
-        path: folder of the experiment.
-        count: how many at a time.
-        task: runs a cell; importable by its name.
-    """
-
-    def __init__(self, path: Path, count: int, task: Task = work) -> None:
-        self._path, self._count, self._task = path, count, task
-        self._pool = self._make_pool()
-        self._futures: dict[Future[CellOutcome], Cell] = {}
-        self._failures: dict[Cell, int] = {}
-
-    def submit(self, cell: Cell) -> None:
-        """Take a cell on."""
-        try:
-            self._futures[self._pool.submit(self._task, self._path, cell)] = cell
-        except BrokenProcessPool:
-            self._restart()
-            self._futures[self._pool.submit(self._task, self._path, cell)] = cell
-
-    def next(self) -> CellOutcome:
-        """Wait for the next cell to end."""
-        while True:
-            done = next(iter(wait(self._futures, return_when=FIRST_COMPLETED).done))
-            cell = self._futures.pop(done)
-            try:
-                return done.result()
-            except BrokenProcessPool:
-                self._failures[cell] = self._failures.get(cell, 0) + 1
-                if self._failures[cell] > _RETRIES:
-                    return CellOutcome(cell, "its process was killed again and again")
-                self.submit(cell)
-
-    def close(self) -> None:
-        """Let no further cell begin, and wait for those that run."""
-        self._pool.shutdown(cancel_futures=True)
-
-    def _restart(self) -> None:
-        self._pool.shutdown(wait=False)
-        self._pool = self._make_pool()
-
-    def _make_pool(self) -> ProcessPoolExecutor:
-        # Spawned, not forked: a forked child would share the threads' locks of its parent.
-        context = multiprocessing.get_context("spawn")
-        return ProcessPoolExecutor(self._count, mp_context=context)
-
-
-@contextmanager
-def open_workers(path: Path, count: int) -> Iterator[Workers]:
-    """Workers on this machine.
-
-    Args:
-        path: folder of the experiment.
-        count: how many cells at a time, at least 1.
-    """
-    if count < 1:
-        raise InternalError(f"expected at least 1 worker, got {count}; please report it")
-    if count == 1:
-        yield OwnProcess(path)
-        return
-    processes = Processes(path, count)
-    try:
-        yield processes
-    finally:
-        processes.close()
