@@ -71,12 +71,12 @@ def test_domain_is_shown_with_its_scenes(printed: Printed) -> None:
 def test_rules_are_checked(
     printed: Printed, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert printed("domain", "cups", "--check", "5")["kept_rules_of"] == "simulator"
+    assert printed("check", "cups", "--steps", "5")["kept_rules_of"] == "simulator"
     shutil.copytree(WORLD, tmp_path / "cups")
     path = tmp_path / "cups" / "robot.py"
     drifting = path.read_text().replace("state, layout)}", "state, next(LOOKS))}")
     path.write_text(f"import itertools\n{drifting}\n\nLOOKS = itertools.count()\n")
-    assert command("domain", tmp_path / "cups", "--check", "5") == 1
+    assert command("check", tmp_path / "cups", "--steps", "5") == 1
     assert "error: observe: the first observe() after reset: exp" in capsys.readouterr().err
 
 

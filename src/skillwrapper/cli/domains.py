@@ -25,7 +25,6 @@ from skillwrapper.world.capabilities import (
     require,
     supports,
 )
-from skillwrapper.world.conformance import check_environment
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Outcome
@@ -46,18 +45,12 @@ SceneOption = Annotated[str | None, typer.Option(help="One of the domain's scene
 def show_domain(
     reference: DomainArgument,
     scene: SceneOption = None,
-    check: Annotated[
-        int | None,
-        typer.Option(min=1, help="Run so many skills by chance, and check every rule of a robot."),
-    ] = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Show types, objects, skills and scenes of a domain, and what its robot can do."""
     package = find_domain(reference)
     scenes = [package.domain.scene(scene)] if scene else list(package.domain.scenes.values())
     found = {**_describe(package.domain, scenes), **_find_out(package, scenes)}
-    if check is not None:
-        found["kept_rules_of"] = check_environment(package.make_environment, steps=check)
     if as_json:
         print_json(found)
     else:
@@ -185,5 +178,3 @@ def _print_domain(domain: Domain, found: Mapping[str, Any]) -> None:
         console.print(f"capabilities: {', '.join(found['capabilities']) or 'none'}")
     else:
         console.print("no robot: its skills cannot be executed")
-    if "kept_rules_of" in found:
-        console.print(f"every rule of a {found['kept_rules_of']} is kept")

@@ -16,6 +16,7 @@ from skillwrapper.cli import (
     operators,
     planning,
     problems,
+    projects,
     reporting,
     settings,
     simulation,
@@ -34,6 +35,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 _GROUPS = (
+    projects,
     learning,
     models,
     verification,

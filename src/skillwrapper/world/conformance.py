@@ -16,11 +16,11 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Literal
 
 from skillwrapper.errors import ConformanceError, RobotError, UserError
 from skillwrapper.world.capabilities import Replayable, Settable, supports
 from skillwrapper.world.conformance_capabilities import check_capabilities
+from skillwrapper.world.conformance_report import ConformanceReport, Level, SkillTally
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Outcome
@@ -30,7 +30,6 @@ from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance, ground_skills
 
 Factory = Callable[[], Environment]
-Level = Literal["robot", "simulator"]
 
 _MEMBERS = ("domain", "scene", "reset", "execute", "observe", "close")
 
@@ -38,11 +37,23 @@ _MEMBERS = ("domain", "scene", "reset", "execute", "observe", "close")
 def check_environment(
     make: Factory,
     *,
-    level: Level | None = None,
+    level: str | None = None,
     seed: int = 0,
     steps: int = 40,
     sample: int = 30,
 ) -> Level:
+    """The level of an environment that passes ``examine_environment``, for tests of one line."""
+    return examine_environment(make, level=level, seed=seed, steps=steps, sample=sample).level
+
+
+def examine_environment(
+    make: Factory,
+    *,
+    level: str | None = None,
+    seed: int = 0,
+    steps: int = 40,
+    sample: int = 30,
+) -> ConformanceReport:
     """Put an environment through every check of its level and of its capabilities.
 
     Args:
@@ -54,7 +65,7 @@ def check_environment(
         sample: how many of the reachable states are looked at more closely.
 
     Returns:
-        The level.
+        The level, and what was seen on the way.
 
     Raises:
         ConformanceError: names the first check that failed, the method, what was expected and
@@ -62,23 +73,28 @@ def check_environment(
     """
     environment = make()
     _check_protocol(environment)
-    if level is None:
-        repeats = supports(environment, Settable) or supports(environment, Replayable)
-        level = "simulator" if repeats else "robot"
+    asked = Level(level) if level else _level_of(environment)
     examined = Examined(environment)
     _check_before_reset(examined)
     start = examined.reset("reset", seed)
     _check_scene(environment)
     _check_unknown_scene(environment, seed)
-    if level == "simulator":
+    if asked is Level.SIMULATOR:
         _check_scenes(examined, seed)
         _check_observe(examined, seed)
         _check_reset(examined, make, seed, steps)
-    _check_unknown_instances(examined, compare=level == "simulator")
-    _check_outcomes(examined, start, seed, steps, compare=level == "simulator")
+    _check_unknown_instances(examined, compare=asked is Level.SIMULATOR)
+    _check_outcomes(examined, start, seed, steps, compare=asked is Level.SIMULATOR)
     check_capabilities(examined, seed, sample)
     _check_close(environment)
-    return level
+    skills = {s.name: examined.skills.get(s.name, SkillTally()) for s in environment.domain.skills}
+    return ConformanceReport(asked, examined.picture_sizes, skills)
+
+
+def _level_of(environment: Environment) -> Level:
+    """What can be asked of an environment by what it says that it can do."""
+    repeats = supports(environment, Settable) or supports(environment, Replayable)
+    return Level.SIMULATOR if repeats else Level.ROBOT
 
 
 def _check_protocol(environment: Environment) -> None:

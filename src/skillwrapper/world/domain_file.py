@@ -7,9 +7,9 @@ domain package are found by ``skillwrapper.domains``.
 from __future__ import annotations
 
 import re
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _MOST_NAMES = 10_000
@@ -21,7 +21,11 @@ def _check_name(name: str) -> str:
     return name
 
 
-Name = Annotated[str, AfterValidator(_check_name)]
+Name = Annotated[
+    str,
+    AfterValidator(_check_name),
+    WithJsonSchema({"type": "string", "pattern": f"^{_NAME.pattern}$"}),
+]
 """A name that a model's reply can carry: no blank, comma, parenthesis or line break."""
 
 
@@ -126,3 +130,12 @@ class DomainFile(Entry):
     pairs: str | None = Field(None, description="file of contrastive pairs for the study")
     published: str | None = Field(None, description="file of published figures to compare with")
     doctor: str | None = Field(None, description="file of pictures for trying out a model")
+
+
+def domain_schema() -> dict[str, Any]:
+    """The JSON Schema (draft 2020-12) of ``domain.yaml``: keys, kinds and meanings."""
+    schema = DomainFile.model_json_schema()
+    for entry in schema["properties"].values():
+        if "patternProperties" in entry:
+            entry["additionalProperties"] = False  # no other names than those of the pattern
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import struct
+import time
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -10,6 +12,7 @@ from PIL import Image, UnidentifiedImageError
 
 from skillwrapper.errors import ConformanceError
 from skillwrapper.world.capabilities import Replayable, Settable, require, supports
+from skillwrapper.world.conformance_report import SkillTally
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Outcome
 from skillwrapper.world.observation import Observation
@@ -41,29 +44,34 @@ class Examined:
 
     Args:
         environment: has all members of the protocol.
+
+    Attributes:
+        picture_sizes: width and height of the pictures seen so far, by camera.
+        skills: how the skills went so far, by name.
     """
 
     def __init__(self, environment: Environment) -> None:
         self.environment = environment
+        self.picture_sizes: dict[str, tuple[int, int]] = {}
+        self.skills: dict[str, SkillTally] = {}
 
     def reset(self, check: str, seed: int, scene: str | None = None) -> Observation:
         """Reset it, and check what is seen."""
         what = f"reset(seed={seed}, scene='{scene}')" if scene else f"reset(seed={seed})"
-        return _checked_observation(
-            _called(check, what, lambda: self.environment.reset(seed=seed, scene=scene)),
-            check,
-            what,
-        )
+        seen = _called(check, what, lambda: self.environment.reset(seed=seed, scene=scene))
+        return self._checked(seen, check, what)
 
     def observe(self, check: str) -> Observation:
         """Look, and check what is seen."""
         seen = _called(check, "observe()", self.environment.observe)
-        return _checked_observation(seen, check, "observe()")
+        return self._checked(seen, check, "observe()")
 
     def execute(self, check: str, instance: SkillInstance) -> Outcome:
         """Execute a skill instance, and check the outcome."""
         what = f"execute({instance})"
+        began = time.monotonic()
         outcome: object = _called(check, what, lambda: self.environment.execute(instance))
+        seconds = time.monotonic() - began
         if not isinstance(outcome, Outcome):
             kind = type(outcome).__name__
             raise ConformanceError(check, f"{what}: expected an Outcome, got {kind}")
@@ -73,8 +81,24 @@ class Examined:
             f"{what}: expected true or false with a message, got {outcome.success!r} with "
             f"{outcome.message!r}",
         )
-        _checked_observation(outcome.observation, check, what)
+        self._checked(outcome.observation, check, what)
+        tally = self.skills.get(instance.skill, SkillTally())
+        self.skills[instance.skill] = tally.with_run(outcome.success, seconds)
         return outcome
+
+    def _checked(self, seen: object, check: str, what: str) -> Observation:
+        """What is seen, if each camera goes on giving pictures of one size."""
+        observation = _checked_observation(seen, check, what)
+        for picture in observation.pictures:
+            size = _png_size(picture.png)
+            expected = self.picture_sizes.setdefault(picture.camera, size)
+            expect(
+                size == expected,
+                "picture sizes",
+                f"{what}: expected pictures of '{picture.camera}' of {expected[0]} x {expected[1]} "
+                f"pixels as before, got {size[0]} x {size[1]}",
+            )
+        return observation
 
     @property
     def state(self) -> Any:
@@ -125,3 +149,8 @@ def _picture_format(png: bytes) -> str:
             return image.format or "an unknown format"
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError):
         return "no picture"
+
+
+def _png_size(png: bytes) -> tuple[int, int]:
+    width, height = struct.unpack(">II", png[16:24])
+    return width, height
