@@ -89,5 +89,5 @@ def test_schema_knows_the_keys_and_the_names_that_the_file_may_have(
     wrong = folder / "domain.yaml"
     wrong.write_text("name: a b\n")
     assert names.startswith("^[A-Za-z]")
-    with pytest.raises(ConfigurationError, match=":1: name"):
+    with pytest.raises(ConfigurationError, match=":1: 'name'"):
         YamlDocument.read(wrong).validate(DomainFile)
