@@ -13,58 +13,63 @@ from skillwrapper.domains.panda.states import BOWL, MUG, SPONGE, TEAPOT
 
 Pixels = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
+Floats = NDArray[np.float64]
 
 PORCELAIN, BROWN, WOOD = "porcelain", "brown", "wood"
 _WOOD: Final = np.array((149.0, 118.0, 85.0))
 """The table in the usual light; it is most of every picture."""
 _WOOD_HUES: Final = (20.0, 45.0)
+_BITS: Final = 5
+"""Bits of each channel by which colours are told apart."""
 
 
-def in_usual_light(pixels: Pixels) -> NDArray[np.float64]:
-    """Fractions (rows, columns, 3) as they would be if the table had its usual colour."""
-    fractions = pixels.astype(np.float64)
-    sample = fractions[pixels.shape[0] // 3 :: 4, ::4].reshape(-1, 3)
-    hue, saturation, value = _hue_saturation_value(sample / 255)
-    wooden = (saturation > 0.2) & (saturation < 0.65) & (value > 0.15)
-    wooden &= (hue > _WOOD_HUES[0] - 15) & (hue < _WOOD_HUES[1] + 15)
-    if wooden.sum() >= sample.shape[0] // 10:
-        fractions = fractions * (_WOOD / np.median(sample[wooden], axis=0))
-    return np.asarray(np.clip(fractions / 255, 0.0, 1.0))
-
-
-def materials(fractions: NDArray[np.float64]) -> Mapping[str, Mask]:
+def materials(pixels: Pixels) -> Mapping[str, Mask]:
     """Where each material is seen (rows, columns): the things by their names, and some others.
 
     Args:
-        fractions: red, green and blue from 0 to 1 in the usual light (rows, columns, 3).
+        pixels: red, green and blue (rows, columns, 3), in any light.
     """
-    hue, saturation, value = _hue_saturation_value(fractions)
+    steps = (np.arange(1 << _BITS) << (8 - _BITS)) + (1 << (7 - _BITS))
+    colours = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    shares = np.clip(colours * _gain(pixels) / 255, 0.0, 1.0)
+    kept = (pixels >> (8 - _BITS)).astype(np.int32)
+    number = (kept[..., 0] << 2 * _BITS) | (kept[..., 1] << _BITS) | kept[..., 2]
+    return MappingProxyType({name: is_it[number] for name, is_it in _told_apart(shares).items()})
+
+
+def _gain(pixels: Pixels) -> Floats:
+    """By what red, green and blue must grow (3,) for the table to have its usual colour."""
+    sample = pixels[pixels.shape[0] // 3 :: 4, ::4].reshape(-1, 3).astype(np.float64)
+    hue, saturation, value = _hue_saturation_value(sample / 255)
+    wooden = (saturation > 0.2) & (saturation < 0.65) & (value > 0.15)
+    wooden &= (hue > _WOOD_HUES[0] - 15) & (hue < _WOOD_HUES[1] + 15)
+    if wooden.sum() < len(sample) // 10:
+        return np.ones(3)
+    return np.asarray(_WOOD / np.median(sample[wooden], axis=0))
+
+
+def _told_apart(colours: Floats) -> Mapping[str, Mask]:
+    """Which colours (n, 3), from 0 to 1 in the usual light, are of each material (n,)."""
+    hue, saturation, value = _hue_saturation_value(colours)
     vivid = saturation > 0.55
     bright_red = ((hue < 14) | (hue > 335)) & vivid & (value > 0.27)
-    brown = (saturation > 0.45) & (value < 0.42) & (hue > 6) & (hue < 45) & ~bright_red
-    return MappingProxyType(
-        {
-            MUG: bright_red,
-            TEAPOT: vivid & (hue > 195) & (hue < 250) & (value > 0.25),
-            BOWL: (saturation > 0.45) & (hue > 115) & (hue < 170) & (value > 0.15),
-            SPONGE: (saturation > 0.68) & (hue > 38) & (hue < 64) & (value > 0.35),
-            PORCELAIN: (saturation < 0.14) & (value > 0.52),
-            BROWN: brown,
-            WOOD: (hue > _WOOD_HUES[0])
-            & (hue < _WOOD_HUES[1])
-            & (saturation > 0.25)
-            & (saturation < 0.6)
-            & (value > 0.4),
-        }
-    )
+    dark = (saturation > 0.45) & (value < 0.42)
+    wooden = (hue > _WOOD_HUES[0]) & (hue < _WOOD_HUES[1]) & (value > 0.4)
+    return {
+        MUG: bright_red,
+        TEAPOT: vivid & (hue > 195) & (hue < 250) & (value > 0.25),
+        BOWL: (saturation > 0.45) & (hue > 122) & (hue < 170) & (value > 0.18),
+        SPONGE: (saturation > 0.68) & (hue > 38) & (hue < 64) & (value > 0.35),
+        PORCELAIN: (saturation < 0.14) & (value > 0.52),
+        BROWN: dark & (hue > 6) & (hue < 45) & ~bright_red,
+        WOOD: wooden & (saturation > 0.25) & (saturation < 0.6),
+    }
 
 
-def _hue_saturation_value(
-    fractions: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Hue in degrees, saturation and value from 0 to 1 (...)."""
-    red, green, blue = (fractions[..., c] for c in range(3))
-    value, least = fractions.max(axis=-1), fractions.min(axis=-1)
+def _hue_saturation_value(shares: Floats) -> tuple[Floats, Floats, Floats]:
+    """Hue in degrees, saturation and value from 0 to 1 (...), of red, green, blue (..., 3)."""
+    red, green, blue = (shares[..., c] for c in range(3))
+    value, least = shares.max(axis=-1), shares.min(axis=-1)
     spread = value - least
     safe = np.maximum(spread, 1e-6)
     hue = np.where(

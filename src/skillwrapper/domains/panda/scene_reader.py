@@ -22,7 +22,6 @@ from skillwrapper.domains.panda.colours import (
     WOOD,
     Mask,
     Pixels,
-    in_usual_light,
     materials,
 )
 from skillwrapper.domains.panda.states import BOWL, MUG, PICKUPABLE, PLATE, ROBOT, SPONGE, TEAPOT
@@ -30,7 +29,7 @@ from skillwrapper.domains.panda.table_map import around, best_disc, camera_of, s
 from skillwrapper.embedded.scene_graph import Box, SceneGraph, Thing
 from skillwrapper.errors import PictureError
 
-_FEWEST: Final = 40
+_FEWEST: Final = 80
 """So many pixels of a colour are a thing and no accident."""
 _PLATE_RADIUS: Final = 0.105
 _PLATE_SHARE: Final = 0.12
@@ -81,7 +80,7 @@ def read_panda_scene(png: bytes) -> SceneGraph:
     Raises:
         PictureError: if it is no picture, or shows no such table.
     """
-    seen = materials(in_usual_light(_decode(png)))
+    seen = materials(_decode(png))
     camera = camera_of(seen[WOOD])
     if camera is None:
         raise PictureError("expected a picture of the table with the arm, found no such table")
