@@ -1,13 +1,15 @@
 # make setup   .venv with everything in it
 # make demo    the main job, start to end
+# make demo-robots  the same on simulated arms, in scenes never seen, with videos
 # make setup-sim  the models of the simulated arms, into your cache
 # make test    the one check: lint, types, tests
 PYTHON ?= python3
 BIN := .venv/bin
 DEMO_DIR ?= runs/demo
 DEMO_SEED ?= 0
+ROBOTS_DIR ?= runs/robots
 
-.PHONY: setup setup-sim demo test lint types tests benchmark clean
+.PHONY: setup setup-sim demo demo-robots test lint types tests benchmark clean
 
 setup: .venv/.installed
 
@@ -33,6 +35,12 @@ demo: setup
 	@echo "PDDL domain:       $(DEMO_DIR)/model/domain.pddl"
 	@echo "the burger:        $(DEMO_DIR)/solve.gif"
 	@echo "report:            $(DEMO_DIR)/report.html"
+
+demo-robots: setup setup-sim
+	$(BIN)/skillwrapper learn panda --out $(ROBOTS_DIR)/panda --seed $(DEMO_SEED) --iterations 9 --budget 15 --threshold 0.5 --set 'scenes=[pouring,wiping,stacking]'
+	$(BIN)/skillwrapper verify $(ROBOTS_DIR)/panda
+	$(BIN)/skillwrapper render panda --state examples/panda/finished.yaml --seed 7 --out $(ROBOTS_DIR)/panda/goal.png
+	$(BIN)/skillwrapper solve $(ROBOTS_DIR)/panda --init-seed 77 --goal $(ROBOTS_DIR)/panda/goal.png --video $(ROBOTS_DIR)/panda/solve.webp
 
 test: lint types tests
 

@@ -39,7 +39,8 @@ def mesh_reduction() -> Any:
 def no_rendering(error: Exception) -> MissingDependencyError:
     """What to say where MuJoCo finds nothing to render with."""
     what = f"what MuJoCo renders with (MUJOCO_GL={os.environ.get('MUJOCO_GL', '')}: {error})"
-    return MissingDependencyError(what, f"apt-get install {' '.join(DEBIAN_PACKAGES)}")
+    how = f"apt-get install {' '.join(DEBIAN_PACKAGES)} (and leave MUJOCO_GL unset)"
+    return MissingDependencyError(what, how)
 
 
 def _imported(module: str, name: str) -> Any:

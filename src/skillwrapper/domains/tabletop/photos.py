@@ -16,7 +16,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.domains.tabletop.cameras import Camera
 from skillwrapper.domains.tabletop.extra import mujoco, no_rendering
+from skillwrapper.domains.tabletop.stage import new_stage
 from skillwrapper.domains.tabletop.world import TableWorld
 from skillwrapper.errors import SkillWrapperError
 
@@ -52,6 +54,16 @@ class Photographer:
         renderer.update_scene(world.data, camera, _options())
         pixels: Pixels = renderer.render()
         return pixels
+
+
+def check_rendering() -> None:
+    """Take a picture of an empty table.
+
+    Raises:
+        MissingDependencyError: if MuJoCo, or what it renders with, is missing; says which.
+    """
+    stage = new_stage({"front": Camera((1.0, 0.0, 1.0), (0.0, 0.0, 0.0), 45.0)})
+    Photographer(64, 48).take(TableWorld(stage.compile(), []), "front")
 
 
 @cache
