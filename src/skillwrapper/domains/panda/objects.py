@@ -96,7 +96,7 @@ HANDLING: Final[Mapping[str, Handling]] = MappingProxyType(
         MUG: Handling(0.075, 0.0),
         TEAPOT: Handling(0.115, 0.045, (0.0, 0.0, 0.095), 0.0055),
         PLATE: Handling(0.135, 0.0),
-        BOWL: Handling(0.080, 0.0, (0.0, -0.0585, 0.046), 0.004),
+        BOWL: Handling(0.080, 0.0, (0.0, -0.0585, 0.046), 0.006),
         SPONGE: Handling(0.065, 0.0175, (0.0, 0.0, 0.006), 0.030),
     }
 )

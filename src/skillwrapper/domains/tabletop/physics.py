@@ -28,6 +28,8 @@ _PRESSING_STEPS: Final = 30
 _OPENING_STEPS: Final = 100
 _SETTLING_STEPS: Final = 200
 _STEPS_PER_FRAME: Final = 40
+_LOOSE: Final = 0.15
+"""Share of the way to open fingers by which they begin beside what they hold."""
 _LOST: Final = 0.05
 """A thing that is so far from where the gripper held it is lost, in metres."""
 
@@ -81,6 +83,9 @@ class PhysicsMotion(Motion):
         for name, arm_ in self.world.arms.items():
             self.world.data.ctrl[arm_.servos] = self.world.joints(name)
             opening = self._opening(name)
+            # Fingers that begin inside a thing would fling it; they close on it from outside.
+            loose = opening + _LOOSE * (arm_.kind.opened - opening)
+            self.world.set_fingers(name, loose)
             self._set_fingers(name, opening)
         self._advance(_SETTLING_STEPS)
 
