@@ -7,9 +7,11 @@ from typing import Annotated, Any
 
 import typer
 
+from skillwrapper.cli.action_models import Negatives, learn_from_traces
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.cli.setting_options import ConfigOption, SetOption, run_settings
 from skillwrapper.domains.discovery import find_domain
+from skillwrapper.errors import ConfigurationError
 from skillwrapper.files.writing import write_json
 from skillwrapper.learning.certification import Certificate, certify
 from skillwrapper.learning.fitting import Fit
@@ -31,12 +33,30 @@ def register(app: typer.Typer) -> None:
 
 def learn_from_file(
     transitions: Annotated[
-        Path, typer.Argument(help="JSON lines, one transition a line; see docs/operators.md.")
+        list[Path],
+        typer.Argument(
+            help="JSON lines, one transition a line; with a PDDL domain also traces in "
+            "parentheses, any number of files; see docs/operators.md."
+        ),
     ],
     domain: Annotated[
-        str, typer.Option(help="The domain: its domain.yaml, its folder or its name.")
+        str,
+        typer.Option(
+            help="The domain: its domain.yaml, its folder or its name; or a PDDL domain that "
+            "declares types, predicates and the parameters of actions."
+        ),
     ],
     out: Annotated[Path, typer.Option(help="Folder for domain.pddl and the other files.")],
+    failures: Annotated[
+        bool,
+        typer.Option(
+            "--failures", help="In traces in parentheses, what leaves the state as it was failed."
+        ),
+    ] = False,
+    negatives: Annotated[
+        Negatives | None,
+        typer.Option(help="With a PDDL domain: which negative preconditions. Default: declared."),
+    ] = None,
     predicates: Annotated[
         Path | None,
         typer.Option(help="predicates.yaml with types and meanings; default: from the atoms."),
@@ -46,10 +66,18 @@ def learn_from_file(
     as_json: JsonFlag = False,
 ) -> None:
     """Learn operators from transitions whose labels are known; no picture, no model."""
+    if domain.lower().endswith(".pddl"):
+        learn_from_traces(transitions, Path(domain), out, failures, negatives, as_json=as_json)
+        return
+    if len(transitions) > 1 or failures or negatives is not None:
+        raise ConfigurationError(
+            "several files, --failures and --negatives are for PDDL domains: expected --domain "
+            f"to name a file that ends with .pddl, got '{domain}'"
+        )
     settings = run_settings(config, {"domain": ("--domain", domain)}, assignments or ()).learning
     declared = find_domain(domain).domain
     vocabulary = read_predicates(predicates, declared) if predicates is not None else None
-    labelled = read_transitions(transitions, declared, vocabulary)
+    labelled = read_transitions(transitions[0], declared, vocabulary)
     fit = learn_operators(labelled, learner=settings.learner, settings=settings)
     certificate, untested = certify(fit), find_untested(fit)
     write_model(out, fit.model)

@@ -1,0 +1,28 @@
+"""What learned preconditions may say."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class ActionModelSettings(BaseModel):
+    """How action models are learned from traces (docs/semantics.md D23)."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    negatives: Literal["none", "reasoned", "declared", "all"] = Field(
+        default="declared",
+        description="which negative preconditions, and which inequalities of arguments, of those "
+        "that were never violated: none; reasoned, what explains a failure that nothing positive "
+        "explains; declared, moreover what the domain's requirements announce "
+        "(:negative-preconditions, :equality); all",
+    )
+    enough_failures: int = Field(
+        default=10,
+        ge=1,
+        description="a precondition that was violated in so many different failures, and never "
+        "explained one alone, is given up",
+        json_schema_extra={"unit": "views"},
+    )

@@ -1,0 +1,57 @@
+"""Steps: what traces consist of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from skillwrapper.action_models.skeleton import DomainSkeleton
+from skillwrapper.errors import FileError, UnknownNameError
+
+State = frozenset[str]
+"""The true ground atoms as words with one blank between them; all others are false."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """An action that was tried.
+
+    Attributes:
+        action: its name.
+        arguments: names of the objects; one may occur twice.
+        success: whether it was applicable.
+        before: the state before.
+        after: the state after.
+        where: where it stands, for complaints.
+    """
+
+    action: str
+    arguments: tuple[str, ...]
+    success: bool
+    before: State
+    after: State
+    where: str = ""
+
+
+def check_step(skeleton: DomainSkeleton, step: Step) -> None:
+    """Raise ``UserError`` if a domain has no such action with so many arguments."""
+    action = skeleton.actions.get(step.action)
+    if action is None:
+        raise UnknownNameError("action", step.action, skeleton.actions, step.where)
+    if len(step.arguments) != len(action.parameters):
+        raise FileError(
+            f"{step.where}: expected {len(action.parameters)} arguments of '{step.action}', "
+            f"got {len(step.arguments)}"
+        )
+
+
+def check_atoms(skeleton: DomainSkeleton, state: State, where: str) -> None:
+    """Raise ``UserError`` if a domain has not the predicate of an atom, or not with its arity."""
+    for words in {(atom.split(" ", 1)[0], atom.count(" ")) for atom in state}:
+        predicate = skeleton.predicates.get(words[0])
+        if predicate is None:
+            raise UnknownNameError("predicate", words[0], skeleton.predicates, where)
+        if len(predicate.parameters) != words[1]:
+            raise FileError(
+                f"{where}: expected {len(predicate.parameters)} terms of '{words[0]}', "
+                f"got {words[1]}"
+            )

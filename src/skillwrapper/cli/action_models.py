@@ -1,0 +1,85 @@
+"""``learn-operators`` with a PDDL domain: action models from symbolic traces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+from skillwrapper.action_models.learner import learn_action_models
+from skillwrapper.action_models.models import ActionModel, DomainModel
+from skillwrapper.action_models.printing import print_model
+from skillwrapper.action_models.reading import read_steps
+from skillwrapper.action_models.settings import ActionModelSettings
+from skillwrapper.action_models.skeleton_files import read_skeleton
+from skillwrapper.cli.output import print_json, results
+from skillwrapper.files.writing import write_atomically, write_json
+
+
+class Negatives(StrEnum):
+    """Which negative preconditions are learned (``ActionModelSettings.negatives``)."""
+
+    NONE = "none"
+    REASONED = "reasoned"
+    DECLARED = "declared"
+    ALL = "all"
+
+
+def learn_from_traces(
+    traces: Sequence[Path],
+    domain: Path,
+    out: Path,
+    failures: bool,
+    negatives: Negatives | None,
+    *,
+    as_json: bool,
+) -> None:
+    """Learn a PDDL domain from traces, under its own names of actions and parameters."""
+    given = {} if negatives is None else {"negatives": negatives.value}
+    settings = ActionModelSettings.model_validate(given)
+    skeleton = read_skeleton(domain)
+    model = learn_action_models(skeleton, read_steps(traces, skeleton, failures=failures), settings)
+    write_atomically(out / "domain.pddl", print_model(model))
+    write_json(out / "action_models.json", _figures(model))
+    if as_json:
+        print_json(_figures(model))
+    else:
+        _print(model, out)
+
+
+def _figures(model: DomainModel) -> dict[str, Any]:
+    return {
+        "actions": {name: _figures_of(action) for name, action in model.actions.items()},
+        "never_seen_to_work": _unseen(model),
+    }
+
+
+def _figures_of(model: ActionModel) -> dict[str, Any]:
+    return {
+        "transitions": model.steps,
+        "preconditions": [str(c) for c in model.preconditions],
+        "refuted": [str(c) for c in model.refuted],
+        "effects": [
+            {"change": str(e.change), "when": [str(c) for c in e.when]} for e in model.effects
+        ],
+        "unexplained": model.unexplained,
+    }
+
+
+def _unseen(model: DomainModel) -> list[str]:
+    return [name for name in model.skeleton.actions if name not in model.actions]
+
+
+def _print(model: DomainModel, out: Path) -> None:
+    console = results()
+    for name, action in model.actions.items():
+        console.print(
+            f"{name}: {action.steps} transitions, {len(action.preconditions)} preconditions, "
+            f"{len(action.effects)} effects"
+        )
+        if action.unexplained:
+            console.print(f"  {action.unexplained} of them follow from nothing about its arguments")
+    for name in _unseen(model):
+        console.print(f"{name}: never seen to work, left out")
+    console.print(f"written: {out / 'domain.pddl'} and what belongs to it")

@@ -1,0 +1,188 @@
+"""Domains and traces as files: what is read, and what is said of what cannot be."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from planning_domains import FERRY, strips_of, walk
+
+from skillwrapper.action_models.amlgym import SkillWrapper
+from skillwrapper.action_models.reading import read_steps
+from skillwrapper.action_models.skeleton_files import parse_skeleton, read_skeleton
+from skillwrapper.action_models.steps import Step
+from skillwrapper.action_models.strips import read_strips
+from skillwrapper.action_models.trace_files import parse_trace
+from skillwrapper.cli.main import main
+from skillwrapper.errors import UserError
+
+TRACE = """(:trajectory
+(:state (at b1 p) (storm))
+
+(:action (wait))
+
+(:state (at b1 p))
+
+(:action (sail b1 p  home))
+
+(:state (at b1 home))
+)
+"""
+
+
+SKELETON = parse_skeleton(FERRY, "boats.pddl")
+
+
+def _domain(tmp_path: Path) -> Path:
+    path = tmp_path / "boats.pddl"
+    path.write_text(FERRY)
+    return path
+
+
+def _complaint(read: Callable[[], object]) -> str | None:
+    """What is said of something that cannot be read; None if it can."""
+    try:
+        read()
+    except UserError as error:
+        return str(error)
+    return None
+
+
+def _in_parentheses(steps: list[Step]) -> str:
+    def state(atoms: frozenset[str]) -> str:
+        return f"(:state {' '.join(f'({atom})' for atom in sorted(atoms))})"
+
+    parts = [state(steps[0].before)]
+    for step in steps:
+        parts += [f"(:action ({' '.join((step.action, *step.arguments))}))", state(step.after)]
+    return "(:trajectory\n" + "\n".join(parts) + "\n)"
+
+
+def _as_json(step: Step) -> str:
+    def atoms(state: frozenset[str]) -> list[str]:
+        return [f"{a.split()[0]}({', '.join(a.split()[1:])})" for a in sorted(state)]
+
+    line = {"skill": step.action, "arguments": list(step.arguments), "success": step.success}
+    return json.dumps({**line, "before": atoms(step.before), "after": atoms(step.after)})
+
+
+def test_the_formats_say_the_same(tmp_path: Path) -> None:
+    true = strips_of(FERRY, tmp_path)
+    steps = list(walk(true, 30, seed=4, failures=False))
+    (tmp_path / "walk").write_text(_in_parentheses(steps).upper())
+    (tmp_path / "walk.jsonl").write_text("\n".join(map(_as_json, steps)))
+    plain = [(s.action, s.arguments, s.before, s.after) for s in steps]
+    for name in ("walk", "walk.jsonl"):
+        found = read_steps([tmp_path / name], true.skeleton)
+        assert [(s.action, s.arguments, s.before, s.after) for s in found] == plain
+
+
+def test_other_ways_to_write_a_trace() -> None:
+    usual = list(parse_trace(TRACE, "t", SKELETON))
+    other = TRACE.replace("(:trajectory", "(trajectory (:objects b1 - boat)")
+    other = other.replace("(:state (at b1 p) (storm))", "(:init (and (at b1 p) (storm)))")
+    other = other.replace("(:action (wait))", "(operator: (wait)) ; calm").replace(
+        "(:state (at b1 home))", "(:state (at b1 home) (not (at b1 p)))"
+    )
+    found = list(parse_trace(other, "t", SKELETON))
+    assert [(s.action, s.before, s.after) for s in found] == [
+        (s.action, s.before, s.after) for s in usual
+    ]
+
+
+def test_what_leaves_the_state_as_it_was_failed_if_it_is_said_so() -> None:
+    trace = TRACE.replace("(:state (at b1 home))", "(:state (at b1 p))")
+    assert [s.success for s in parse_trace(trace, "t", SKELETON)] == [True, True]
+    marked = parse_trace(trace, "t", SKELETON, failures=True)
+    assert [s.success for s in marked] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "where", "said"),
+    [
+        ("(at b1 p) (storm)", "(at b1 p) (strom)", "t:2", "predicate 'strom'"),
+        ("(at b1 p) (storm)", "(at b1) (storm)", "t:2", "expected 2 terms of 'at', got 1"),
+        ("(wait)", "(wiat)", "t:6", "action 'wiat'"),
+        ("sail b1 p  home", "sail b1 p", "t:10", "expected 3 arguments of 'sail', got 2"),
+        ("(:state (at b1 p))\n\n", "", "t:6", "expected a state before every action"),
+        ("(:action (wait))", "", "t:6", "expected an action between two states"),
+        ("(at b1 home))\n)", "(at b1 home)", "t:10", "expected 2 ')'"),
+        ("(:trajectory", "trajectory", "t:1", "expected a trace"),
+    ],
+)
+def test_a_broken_trace(old: str, new: str, where: str, said: str) -> None:
+    assert old in TRACE
+    with pytest.raises(UserError) as caught:
+        list(parse_trace(TRACE.replace(old, new), "t", SKELETON))
+    assert where in str(caught.value)
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("(:types boat car", "(:types boat car (", "never closed"),
+        ("?c - car ?b - boat) (full", "?c - cart ?b - boat) (full", "type 'cart'"),
+        ("boat car - movable movable", "boat car - movable movable - boat", "cycle"),
+        ("(storm))\n", "(storm) (storm))\n", "declared twice"),
+        ("?b - boat ?from ?to - harbour", "?b - boat ?from ?from - harbour", "same name"),
+        ("(define (domain boats)", "(define (problem boats)", "(domain NAME)"),
+    ],
+)
+def test_a_broken_domain(old: str, new: str, said: str, tmp_path: Path) -> None:
+    path = tmp_path / "broken.pddl"
+    assert old in FERRY
+    path.write_text(FERRY.replace(old, new, 1))
+    with pytest.raises(UserError, match=r"broken\.pddl") as caught:
+        read_skeleton(path)
+    assert said in str(caught.value)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.data())
+def test_no_damage_to_a_trace_ends_in_a_traceback(data: st.DataObject) -> None:
+    text = TRACE
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(text) - 1))
+        text = text[:at] + data.draw(st.sampled_from("() \nab?;:-")) + text[at + 1 :]
+    said = _complaint(lambda: list(parse_trace(text, "t", SKELETON)))
+    assert said is None or said.startswith("t:")
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.data())
+def test_no_damage_to_a_domain_ends_in_a_traceback(data: st.DataObject) -> None:
+    at = data.draw(st.integers(0, len(FERRY) - 1))
+    text = FERRY[:at] + data.draw(st.sampled_from("() -?;:")) + FERRY[at + 1 :]
+    said = _complaint(lambda: parse_skeleton(text, "damaged.pddl"))
+    assert said is None or "damaged.pddl" in said
+
+
+def test_as_an_algorithm_of_amlgym(tmp_path: Path) -> None:
+    (tmp_path / "0_traj").write_text(TRACE)
+    learned = SkillWrapper().learn(str(_domain(tmp_path)), [str(tmp_path / "0_traj")])
+    assert ":precondition (and (storm))" in learned
+    assert "(:action board" not in learned
+
+
+def test_on_the_command_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "walk").write_text(TRACE)
+    given = ["learn-operators", str(tmp_path / "walk"), "--domain", str(_domain(tmp_path))]
+    monkeypatch.setattr(sys, "argv", ["skillwrapper", *given, "--out", str(tmp_path / "out")])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert not ended.value.code
+    said = capsys.readouterr().out
+    assert "wait: 1 transitions, 1 preconditions, 1 effects" in said
+    assert "board: never seen to work, left out" in said
+    learned = read_strips(tmp_path / "out" / "domain.pddl")
+    assert sorted(learned.actions) == ["sail", "wait"]
+    figures = json.loads((tmp_path / "out" / "action_models.json").read_text())
+    assert figures["actions"]["wait"]["effects"] == [{"change": "(not (storm))", "when": []}]

@@ -1,0 +1,89 @@
+"""Small planning domains, one for each way in which real ones are awkward, and walks in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from skillwrapper.action_models.steps import State, Step
+from skillwrapper.action_models.strips import Strips, read_strips
+
+FERRY = """
+(define (domain boats) (:requirements :typing :equality :negative-preconditions)
+(:types boat car - movable movable harbour - object)
+(:constants home - harbour)
+(:predicates (at ?m - movable ?h - harbour) (aboard ?c - car ?b - boat) (full ?b - boat) (storm))
+(:action sail :parameters (?b - boat ?from ?to - harbour)
+  :precondition (and (at ?b ?from) (not (storm))) :effect (and (not (at ?b ?from)) (at ?b ?to)))
+(:action return :parameters (?b - boat ?from - harbour)
+  :precondition (at ?b ?from) :effect (and (not (at ?b ?from)) (at ?b home)))
+(:action board :parameters (?c - car ?b - boat ?h - harbour)
+  :precondition (and (at ?c ?h) (at ?b ?h) (not (full ?b)))
+  :effect (and (aboard ?c ?b) (full ?b) (not (at ?c ?h))))
+(:action land :parameters (?c - car ?b - boat ?h - harbour)
+  :precondition (and (aboard ?c ?b) (at ?b ?h))
+  :effect (and (at ?c ?h) (not (aboard ?c ?b)) (not (full ?b))))
+(:action wait :parameters () :precondition (storm) :effect (not (storm)))
+(:action brew :parameters () :precondition (not (storm)) :effect (storm)))
+"""
+"""Constants, a deep type hierarchy, equal arguments, no arguments, negative preconditions."""
+
+LAMPS = """
+(define (domain lamps)
+(:requirements :typing :conditional-effects :equality :negative-preconditions)
+(:types switch lamp)
+(:predicates (wired ?s - switch ?l - lamp) (lit ?l - lamp) (up ?s - switch) (next ?a ?b - switch))
+(:action flip :parameters (?s - switch ?l - lamp)
+  :precondition (up ?s)
+  :effect (and (not (up ?s)) (when (wired ?s ?l) (lit ?l))))
+(:action lift :parameters (?s - switch ?l - lamp)
+  :precondition (not (up ?s)) :effect (and (up ?s) (not (lit ?l))))
+(:action swap :parameters (?a ?b - switch)
+  :precondition (and (up ?a) (not (up ?b)) (not (= ?a ?b)))
+  :effect (and (up ?b) (not (up ?a)))))
+"""
+"""Conditional effects, and arguments that must differ."""
+
+OBJECTS = {
+    "boats": {"b1": "boat", "b2": "boat", "c1": "car", "c2": "car", "p": "harbour", "q": "harbour"},
+    "lamps": {"s1": "switch", "s2": "switch", "s3": "switch", "l1": "lamp", "l2": "lamp"},
+}
+
+STARTS = {
+    "boats": frozenset({"at b1 p", "at b2 home", "at c1 p", "at c2 q"}),
+    "lamps": frozenset({"up s1", "up s2", "wired s1 l1", "wired s2 l1", "wired s3 l2"}),
+}
+
+
+def strips_of(text: str, folder: Path) -> Strips:
+    """The domain of a text."""
+    path = folder / "domain.pddl"
+    path.write_text(text)
+    return read_strips(path)
+
+
+def instances(domain: Strips, objects: dict[str, str]) -> list[tuple[str, tuple[str, ...]]]:
+    """All actions with all arguments of the right types, equal ones too."""
+    free = Strips(
+        domain.skeleton,
+        {name: type(a)(a.name, a.parameters, (), ()) for name, a in domain.actions.items()},
+    )
+    return list(free.applicable(frozenset(), objects))
+
+
+def walk(domain: Strips, steps: int, seed: int, *, failures: bool) -> Iterator[Step]:
+    """Actions drawn at random; without failures from those that apply."""
+    chance = np.random.default_rng(seed)
+    objects = OBJECTS[domain.skeleton.name]
+    everything = instances(domain, objects)
+    state: State = STARTS[domain.skeleton.name]
+    for _ in range(steps):
+        good = sorted(domain.applicable(state, objects))
+        choice = everything if failures else good
+        name, arguments = choice[int(chance.integers(len(choice)))]
+        done = (name, arguments) in good
+        after = domain.actions[name].apply(state, arguments) if done else state
+        yield Step(name, arguments, done, state, after)
+        state = after
