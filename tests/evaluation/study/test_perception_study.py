@@ -157,3 +157,10 @@ def test_kept_calls_are_not_made_again(label_file: Path, tmp_path: Path) -> None
         assert {total.role: (total.made, total.served) for total in store.totals()} == {
             "evaluate": (1, 1),
         }
+
+
+def test_one_of_a_domains_drawings_is_a_condition() -> None:
+    chalk, oil = find_conditions(["drawing:chalk", "drawing:oil"])
+    subject = subject_of("burger", pictures=2)
+    assert (subject.supports(chalk), subject.supports(oil)) == (True, False)
+    assert len(subject.samples(chalk)) == 2

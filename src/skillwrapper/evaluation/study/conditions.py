@@ -27,6 +27,7 @@ class Condition:
         distort: changes a picture; None leaves it as it is.
         layouts: whether every picture shows an arrangement of its own.
         redrawn: whether the objects are drawn in another way, if the domain has one.
+        drawing: in which of the domain's ways; empty for the first.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Condition:
     distort: Distortion | None = None
     layouts: bool = False
     redrawn: bool = False
+    drawing: str = ""
 
     @property
     def needs_simulator(self) -> bool:
@@ -91,13 +93,26 @@ CONDITIONS: Final[Mapping[str, Condition]] = MappingProxyType({c.name: c for c i
 """All conditions by name; how strong they are was fixed before anything was measured."""
 
 
+_ONE_DRAWING: Final = "drawing:"
+
+
 def find_conditions(names: Sequence[str]) -> tuple[Condition, ...]:
     """Conditions by their names; all if there are no names.
+
+    Args:
+        names: of ``CONDITIONS``, or ``drawing:NAME`` for one of the domain's drawings: another
+            camera, other light, other instances.
 
     Raises:
         UnknownNameError: if there is no such condition.
     """
-    for name in names:
-        if name not in CONDITIONS:
-            raise UnknownNameError("condition", name, CONDITIONS)
-    return tuple(CONDITIONS[name] for name in dict.fromkeys(names)) or _ALL
+    return tuple(_find(name) for name in dict.fromkeys(names)) or _ALL
+
+
+def _find(name: str) -> Condition:
+    drawing = name.removeprefix(_ONE_DRAWING)
+    if drawing != name:
+        return Condition(name, f"the drawing '{drawing}'", redrawn=True, drawing=drawing)
+    if name not in CONDITIONS:
+        raise UnknownNameError("condition", name, (*CONDITIONS, f"{_ONE_DRAWING}NAME"))
+    return CONDITIONS[name]

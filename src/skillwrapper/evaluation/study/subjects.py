@@ -116,13 +116,15 @@ class SimulatedSubject(Subject):
 
     def supports(self, condition: Condition) -> bool:
         """Other arrangements always; another drawing if the domain has one."""
-        return not condition.redrawn or self.package.has("drawings")
+        drawings = self.package.entries.drawings
+        wanted = condition.drawing
+        return not condition.redrawn or (wanted in drawings if wanted else bool(drawings))
 
     def samples(self, condition: Condition) -> tuple[Sample, ...]:
         """The sampled states, drawn under a condition."""
         shown = self._usual
         if condition.redrawn:
-            drawing = next(iter(self.package.entries.drawings))
+            drawing = condition.drawing or next(iter(self.package.entries.drawings))
             shown = _enumerable(self.package, drawing)
         pictures, plain = [], []
         for number, state in enumerate(self._states):
