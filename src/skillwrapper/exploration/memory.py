@@ -76,6 +76,7 @@ class Memory:
         self.failures: Counter[str | Kind | SkillInstance] = Counter()
         self.proven: set[Kind] = set()
         self._vain: set[tuple[bytes, SkillInstance]] = set()
+        self._done: set[tuple[bytes, SkillInstance]] = set()
         self._kept: dict[SkillInstance, tuple[float, float]] = {}
         self.roles: Roles = np.zeros(0, dtype=np.intp)
         self.signatures: list[Signature] = []
@@ -94,6 +95,7 @@ class Memory:
         """Begin an episode: nothing was done yet with any object."""
         self.roles = self.scene(scene).at_start
         self._vain.clear()
+        self._done.clear()
 
     def note(
         self,
@@ -119,6 +121,7 @@ class Memory:
         self._tried[transition.before.key, instance] = transition.success
         if predicted is not None:
             self.surprises.note(predicted=predicted, success=transition.success)
+        self._done.add((state, instance))
         if transition.success:
             self.roles = own.after(self.roles, number)
             self.proven.add(own.kinds[number])
@@ -162,15 +165,14 @@ class Memory:
     def was_tried(self, observation: str, state: bytes, instance: SkillInstance) -> bool:
         """Whether to run an instance would only repeat what is known.
 
-        It was run where the same was seen, or in vain since anything last succeeded, where the
-        labels were the same.
+        It was run where the same was seen, or in this episode where the labels were the same.
 
         Args:
             observation: key of what is seen.
             state: the labels.
             instance: the skill instance.
         """
-        return (observation, instance) in self._tried or (state, instance) in self._vain
+        return (observation, instance) in self._tried or (state, instance) in self._done
 
     def has_failed(self, observation: str, state: bytes, instance: SkillInstance) -> bool:
         """Whether it moreover failed."""

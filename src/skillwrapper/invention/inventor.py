@@ -238,6 +238,8 @@ class Inventor:
         self._attempts[inconsistency.identity] += 1
         if attempt == 0 and self._try(inconsistency, fit, self._vocabulary.dormant, dormant=True):
             return
+        if attempt == 0 and self._settings.widen and self._try_wider(inconsistency, fit):
+            return
         number = self._questions[inconsistency.identity]
         self._questions[inconsistency.identity] += 1
         pairs = inconsistency.pairs if self._settings.rotate else (inconsistency,)
@@ -254,6 +256,14 @@ class Inventor:
         postponed = self._postponed.get(inconsistency.identity, ())
         if attempt + 1 >= self._settings.attempts and postponed:
             self._take_best(inconsistency, postponed)
+
+    def _try_wider(self, inconsistency: Inconsistency, fit: Fit) -> bool:
+        """Whether it helps to say of wider types, that the skill takes, what is said already."""
+        skill = self._fitter.recorded.domain.skill_by_name[inconsistency.skill]
+        wider = self._vocabulary.wider(p.type for p in skill.parameters)
+        rejected = self._rejections.of(inconsistency.identity)
+        fresh = [p for p in wider if p not in rejected]
+        return bool(fresh) and self._try(inconsistency, fit, fresh, dormant=False)
 
     def _try(
         self,

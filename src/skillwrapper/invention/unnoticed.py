@@ -58,7 +58,8 @@ class UnnoticedChanges:
             if self._asked[name] < self._most and executions >= self._next.get(name, 0):
                 found = max(self._open(of_skill), default=None)
                 if found is not None:
-                    wide = of_skill in silent and name in self._next
+                    others_change = of_skill not in silent and not found[2][1]
+                    wide = others_change or (of_skill in silent and name in self._next)
                     return _question(name, abs(found[1]), found[2], wide=wide)
         return None
 
@@ -86,7 +87,8 @@ class UnnoticedChanges:
                 for row in group.rows[~table.unchanged[group.rows] & ~table.hanging[group.rows]]:
                     number, state = int(table.ids[row]), table.before[row].tobytes()
                     example = (state, change) if silent else (b"", change)
-                    if (of_skill.skill, *example) not in self._settled:
+                    changes = silent or table.change[row].any()
+                    if changes and (of_skill.skill, *example) not in self._settled:
                         yield -self._shown[number], number if silent else -number, example
 
 

@@ -49,6 +49,21 @@ class Vocabulary:
                 chosen.setdefault(candidate.name, candidate)
         return tuple(chosen.values())
 
+    def wider(self, types: Iterable[str]) -> tuple[Predicate, ...]:
+        """The active predicates, said of wider types, where some of the types are wider.
+
+        What is told of doors may be what matters of other passages.
+        """
+        found: dict[Predicate, None] = {}
+        for predicate in self.active:
+            for place, own in enumerate(predicate.types):
+                for wide in types:
+                    if wide != own and wide in self._types.ancestors[own]:
+                        changed = [*predicate.types]
+                        changed[place] = wide
+                        found[with_types(predicate, changed)] = None
+        return tuple(found)
+
     def with_candidate(self, predicate: Predicate) -> tuple[Predicate, ...]:
         """The active predicates with a candidate, which replaces one of its name."""
         return (*(p for p in self.active if p.name != predicate.name), predicate)

@@ -124,8 +124,9 @@ def _lifted_changes(
 ) -> Iterator[tuple[int, LiftedChange]]:
     table = prediction.table
     for group in table.successes if success else table.failures:
+        strange = bool(group.lifting.unexplained) and not group.lifting.change  # D5
         for row in group.rows:
-            if not no_ops[table][row]:
+            if not no_ops[table][row] and not (strange and prediction.accounted[row]):
                 yield int(table.ids[row]), group.lifting.change
 
 

@@ -242,14 +242,17 @@ def _changes_of_successes(
     """The lifted changes that successes made, with the numbers of the transitions.
 
     Not those of the clusters: from these, conditional effects are left out (D5). A success that
-    changed nothing does not count (D7).
+    changed nothing does not count (D7), nor one that only changed what conditional effects change.
     """
     found: dict[LiftedChange, list[int]] = {}
     no_ops = find_no_ops(p.table for p in predictions)
     for prediction in predictions:
         table = prediction.table
         for group in prediction.table.successes:
-            visible = table.ids[group.rows[~no_ops[table][group.rows]]]
+            counts = ~no_ops[table][group.rows]
+            if group.lifting.unexplained and not group.lifting.change:
+                counts &= ~prediction.accounted[group.rows]
+            visible = table.ids[group.rows[counts]]
             if len(visible):
                 found.setdefault(group.lifting.change, []).extend(map(int, visible))
     return found
