@@ -36,6 +36,7 @@ class Weights:
         witness: an attempt like one that the model cannot explain.
         other_witness: an attempt at the same skill, as a share of that.
         fading: what is left of it after every time that it was gone after.
+        slow_fading: the same after every time that any cause of the skill was.
     """
 
     unproven: float = 1.5
@@ -49,6 +50,7 @@ class Weights:
     witness: float = 0.8
     other_witness: float = 0.15
     fading: float = 0.75
+    slow_fading: float = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,6 +176,7 @@ def _witnesses(
     for cause in causes:
         signature = memory.signatures[cause.culprit]
         worth = weights.witness * weights.fading ** memory.pursued[cause.skill, signature]
+        worth *= weights.slow_fading ** memory.pursued_in_all[cause.skill]
         for number, instance in enumerate(scene.instances):
             if instance.skill == cause.skill:
                 roles = lookahead.roles[:, scene.places[number]]

@@ -201,7 +201,7 @@ class Inventor:
         causes = distinct_causes(self._ripe(fit))
         left = [c for c in causes if self._attempts[c.identity] < tries]
         if not left and unnoticed:
-            return self._unnoticed.next(fit, len(self._fitter.recorded))
+            return self._unnoticed.next(fit, self._fitter.recorded)
         return min(
             left,
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),

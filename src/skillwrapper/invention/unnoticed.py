@@ -17,6 +17,8 @@ from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.lifting import LiftedChange
+from skillwrapper.transitions.recorded import RecordedTransitions
+from skillwrapper.world.skills import SkillInstance
 
 _GROWTH = 1.5
 _ALIKE = 4
@@ -44,23 +46,25 @@ class UnnoticedChanges:
         self._shown: Counter[int] = Counter()
         self._settled: set[tuple[object, ...]] = set()
 
-    def next(self, fit: Fit, executions: int) -> Inconsistency | None:
+    def next(self, fit: Fit, recorded: RecordedTransitions) -> Inconsistency | None:
         """What to ask about next; None if there is nothing.
 
         Args:
             fit: what is learned.
-            executions: how many skills were executed so far.
+            recorded: all transitions so far.
         """
+        executions, again = len(recorded), _repetitions(recorded)
         silent = [of_skill for of_skill in fit.each() if of_skill.unnoticed is not None]
         others = [s for s in fit.each() if s not in silent] if self._everywhere else []
         for of_skill in (*silent, *others):
             name = of_skill.skill
             if self._asked[name] < self._most and executions >= self._next.get(name, 0):
-                found = max(self._open(of_skill), default=None)
+                is_wide = of_skill in silent and name in self._next
+                found = max(self._open(of_skill, again, is_wide), default=None)
                 if found is not None:
-                    others_change = of_skill not in silent and not found[2][1]
-                    wide = others_change or (of_skill in silent and name in self._next)
-                    return _question(name, abs(found[1]), found[2], wide=wide)
+                    example = found[3]
+                    is_wide = is_wide or (of_skill not in silent and not example[1])
+                    return _question(name, abs(found[2]), example, wide=is_wide)
         return None
 
     def note(self, asked: Inconsistency, executions: int, *, nothing: bool, silent: bool) -> None:
@@ -72,12 +76,15 @@ class UnnoticedChanges:
             self._asked[asked.skill] += 1
         if nothing or not silent:
             (state,), change = asked.identity[2:]
-            self._settled.add((asked.skill, state, change))
+            self._settled.add((asked.skill, state, change, asked.wide))
 
-    def _open(self, of_skill: SkillFit) -> Iterator[tuple[int, int, _Key]]:
-        """Successes that may be asked about: how seldom one was shown, order, what it exemplifies.
+    def _open(
+        self, of_skill: SkillFit, again: frozenset[int], wide: bool
+    ) -> Iterator[tuple[int, bool, int, _Key]]:
+        """Successes that may be asked about, the best the largest.
 
-        Where nothing seems to change, the latest one in every state that was not shown yet.
+        How seldom one was shown, whether it was the first in its episode, its order, and what it
+        exemplifies. Where nothing seems to change, that is the state; else it is the change.
         """
         silent = of_skill.unnoticed is not None
         for prediction in of_skill.predictions:
@@ -88,8 +95,25 @@ class UnnoticedChanges:
                     number, state = int(table.ids[row]), table.before[row].tobytes()
                     example = (state, change) if silent else (b"", change)
                     changes = silent or table.change[row].any()
-                    if changes and (of_skill.skill, *example) not in self._settled:
-                        yield -self._shown[number], number if silent else -number, example
+                    if changes and (of_skill.skill, *example, wide) not in self._settled:
+                        order, first = number if silent else -number, number not in again
+                        yield -self._shown[number] * (not wide), first, order, example
+
+
+def _repetitions(recorded: RecordedTransitions) -> frozenset[int]:
+    """The numbers of successes of what had succeeded in the episode before."""
+    found: set[int] = set()
+    done: set[SkillInstance] = set()
+    seen = ""
+    for number, record in enumerate(recorded.records):
+        transition = record.transition
+        if transition.before.key != seen:
+            done.clear()
+        seen = transition.after.key
+        if transition.success:
+            found |= {number} if transition.instance in done else set()
+            done.add(transition.instance)
+    return frozenset(found)
 
 
 def _question(skill: str, number: int, example: _Key, *, wide: bool) -> Inconsistency:
