@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.text import Text
@@ -24,8 +26,22 @@ from skillwrapper.cli.setting_options import (
     run_settings,
 )
 from skillwrapper.cli.time_limits import time_limit
+from skillwrapper.cli.ways_to_run import (
+    ByHandOption,
+    CameraOption,
+    RobotOption,
+    RobotTimeoutOption,
+    check_ways,
+    person,
+    run_folder,
+)
+from skillwrapper.errors import ConfigurationError
+from skillwrapper.robots.process import ProcessRobot
+from skillwrapper.runs.archive import RunArchive
+from skillwrapper.runs.by_hand import learn_by_hand
 from skillwrapper.runs.estimate import estimate_run
 from skillwrapper.runs.launch import learn as run_learning
+from skillwrapper.runs.launch import learn_recorded
 from skillwrapper.runs.models import check_models
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
@@ -38,8 +54,20 @@ def register(app: typer.Typer) -> None:
 
 def learn(
     context: typer.Context,
-    out: Annotated[Path, typer.Option(help="Folder of the run; an existing run is resumed.")],
     domain: OptionalDomainArgument = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder of the run; an existing run is resumed.")
+    ] = None,
+    robot: RobotOption = None,
+    robot_timeout: RobotTimeoutOption = 300.0,
+    by_hand: ByHandOption = False,
+    camera: CameraOption = None,
+    no_execute: Annotated[
+        bool,
+        typer.Option(
+            "--no-execute", help="Learn from what is recorded in a run; DOMAIN is its folder."
+        ),
+    ] = False,
     seed: Annotated[int | None, option("seed")] = None,
     iterations: Annotated[int | None, option("iterations")] = None,
     budget: Annotated[int | None, option("budget")] = None,
@@ -75,13 +103,48 @@ def learn(
     as_json: JsonFlag = False,
 ) -> None:
     """Run skills, look, invent predicates and learn operators; resumes an existing run."""
-    settings = run_settings(config, options_given(context.params), assignments or ())
+    options = options_given(context.params)
+    if no_execute:
+        if config is not None:
+            raise ConfigurationError("--config: a run keeps its settings; change them with --set")
+        _learn_recorded(domain or out, options, assignments or (), as_json)
+        return
+    settings = run_settings(config, options, assignments or ())
     if dry_run:
         _estimate(settings, as_json)
         return
-    limit = settings.calls.max_seconds
-    with RunProgress(messages()) as progress, time_limit(limit):
-        result = run_learning(settings, out, observers=[progress])
+    check_ways(robot, by_hand, camera)
+    folder = run_folder(out, "learning")
+    with RunProgress(messages(by_hand)) as progress, time_limit(settings.calls.max_seconds):
+        if by_hand:
+            tell = partial(typer.echo, err=True)
+            result = learn_by_hand(settings, folder, person(camera), tell, observers=[progress])
+        elif robot is not None:
+            with ProcessRobot(robot, settings.domain, robot_timeout) as process:
+                result = run_learning(settings, folder, environment=process, observers=[progress])
+        else:
+            result = run_learning(settings, folder, observers=[progress])
+    _tell_result(folder, progress, result, as_json)
+
+
+def _learn_recorded(
+    run: str | Path | None,
+    options: Mapping[str, tuple[str, Any]],
+    assignments: Sequence[str],
+    as_json: bool,
+) -> None:
+    if run is None:
+        raise ConfigurationError("--no-execute: expected the folder of a run, as in: learn RUN")
+    folder = Path(run)
+    layout = RunArchive.open(folder).layout
+    given = {name: value for name, value in options.items() if name != "domain"}
+    settings = run_settings(layout.config, given, assignments)
+    with RunProgress(messages()) as progress, time_limit(settings.calls.max_seconds):
+        result = learn_recorded(folder, settings, observers=[progress])
+    _tell_result(folder, progress, result, as_json)
+
+
+def _tell_result(out: Path, progress: RunProgress, result: LearningResult, as_json: bool) -> None:
     if as_json:
         calls = {"model_calls": progress.calls, "calls_made": progress.calls_made}
         print_json({"run": str(out), **calls, **result.figures.model_dump()})

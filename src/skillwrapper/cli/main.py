@@ -17,6 +17,7 @@ from skillwrapper.cli import (
     planning,
     problems,
     projects,
+    recording,
     reporting,
     settings,
     simulation,
@@ -36,6 +37,7 @@ app = typer.Typer(
 )
 _GROUPS = (
     projects,
+    recording,
     learning,
     models,
     verification,

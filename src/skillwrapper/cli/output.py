@@ -22,9 +22,10 @@ def results() -> Console:
     return Console(highlight=False, soft_wrap=True, markup=False, emoji=False)
 
 
-def messages() -> Console:
-    """The console for progress and errors."""
-    return Console(stderr=True, highlight=False, markup=False, emoji=False)
+def messages(plain: bool = False) -> Console:
+    """The console for progress and errors; a plain one leaves the screen to questions."""
+    terminal = False if plain else None
+    return Console(stderr=True, highlight=False, markup=False, emoji=False, force_terminal=terminal)
 
 
 def print_json(content: Any) -> None:

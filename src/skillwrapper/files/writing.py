@@ -50,6 +50,11 @@ def json_text(content: object) -> str:
     return json.dumps(content, indent=1, sort_keys=True) + "\n"
 
 
+def json_line(entry: Mapping[str, Any]) -> bytes:
+    """A line of a file of JSON lines, with its end."""
+    return json.dumps(entry, sort_keys=True).encode("utf-8") + b"\n"
+
+
 def append_line(path: Path, entry: Mapping[str, Any], *, durable: bool = True) -> int:
     """Append a JSON line in a single write; a line before it that a crash cut short is removed.
 
@@ -64,7 +69,7 @@ def append_line(path: Path, entry: Mapping[str, Any], *, durable: bool = True) -
     Raises:
         FileError: if the file cannot be written.
     """
-    line = json.dumps(entry, sort_keys=True).encode("utf-8") + b"\n"
+    line = json_line(entry)
     with explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         is_new = not path.exists()

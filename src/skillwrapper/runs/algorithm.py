@@ -67,10 +67,18 @@ class EarlierRun:
     Attributes:
         episode: the record of an episode, by its number from 1; None where there is none.
         finished: how many iterations it has finished; they stay part of the run.
+        is_all: whether it is learned from this alone: every episode is taken as it is, and nothing
+            is executed.
     """
 
     episode: Callable[[int], EpisodeSoFar | None] = _nothing
     finished: int = 0
+    is_all: bool = False
+
+    def recorded(self, number: int) -> EpisodeSoFar | None:
+        """The record of an episode as the run has to take it; None where there is none."""
+        found = self.episode(number)
+        return replace(found, given=True) if found and self.is_all else found
 
 
 class LearningAlgorithm:
@@ -171,7 +179,7 @@ class LearningAlgorithm:
 
     def _explore(self) -> Episode:
         scene = self._scenes[(self._iteration - 1) % len(self._scenes)]
-        recorded = self._earlier.episode(self._iteration)
+        recorded = self._earlier.recorded(self._iteration)
         if recorded is not None:
             return self._runner.follow(self._iteration, recorded, scene, self._next_skill)
         seed = self._settings.layout_seed(self._iteration)

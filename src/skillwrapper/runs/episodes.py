@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from skillwrapper.errors import RobotError, RunFolderError
 from skillwrapper.exploration.explorer import NextSkill
 from skillwrapper.runs.events import EpisodeStarted, Observer, SkillExecuted, SkillRecalled
-from skillwrapper.world.capabilities import Replayable, supports
+from skillwrapper.world.capabilities import Lasting, Replayable, require, supports
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
@@ -25,12 +25,14 @@ class EpisodeSoFar:
         seed: that of the reset.
         start: what was seen after the reset.
         transitions: what was executed since; grows.
+        given: whether it is taken as it is: no choice of the run, and never continued.
     """
 
     scene: Scene
     seed: int
     start: Observation
     transitions: list[Transition] = field(default_factory=list)
+    given: bool = False
 
     @property
     def observation(self) -> Observation:
@@ -50,8 +52,8 @@ class EpisodeRunner:
     """Runs the episodes of a run.
 
     An episode that was cut short is continued: the environment is reset with the same seed, and
-    what was recorded is executed again and compared. An environment that cannot do that (a robot)
-    is not ``Replayable``; its episode then ends where the record ends.
+    what was recorded is executed again and compared (``Replayable``), or it stands there still
+    (``Lasting``). The episode of any other environment ends where the record ends.
 
     Args:
         environment: the robot or simulator.
@@ -90,7 +92,8 @@ class EpisodeRunner:
             recorded: what was recorded.
             scene: name of the scene that was asked for.
             choose: decides what to execute; asked in any case, so that choices by chance are the
-                same in a resumed run.
+                same in a resumed run, and so that learning goes the same way from episodes that
+                are given.
 
         Raises:
             RobotError: if the environment fails, or does not repeat what was recorded.
@@ -99,14 +102,25 @@ class EpisodeRunner:
         done = EpisodeSoFar(recorded.scene, recorded.seed, recorded.start)
         for transition in recorded.transitions:
             chosen = choose(done)
-            _check_choice(number, transition.instance, chosen.instance)
+            if not recorded.given:
+                _check_choice(number, transition.instance, chosen.instance)
             done.transitions.append(transition)
             self._tell(SkillRecalled(number, transition, chosen.reason))
         following = choose(done)
-        if following.instance is not None and supports(self._environment, Replayable):
-            self._repeat(recorded, scene)
+        is_over = following.instance is None or recorded.given
+        if not is_over and self._stands_at_end(recorded, scene):
             self._go_on(number, done, choose, following)
         return done.to_episode()
+
+    def _stands_at_end(self, recorded: EpisodeSoFar, scene: str) -> bool:
+        """Whether the environment stands where the record ends, or could be brought there."""
+        if supports(self._environment, Replayable):
+            self._repeat(recorded, scene)
+            return True
+        if supports(self._environment, Lasting):
+            require(self._environment, Lasting, "going on").take_up(recorded.scene)
+            return True
+        return False
 
     def _go_on(self, number: int, done: EpisodeSoFar, choose: Choose, following: NextSkill) -> None:
         while following.instance is not None:

@@ -9,6 +9,7 @@ from typing import Any
 
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ProviderError, RunFolderError, UserError
+from skillwrapper.robots.absent import AbsentRobot
 from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm
 from skillwrapper.runs.archive import (
     ArchiveWriter,
@@ -16,6 +17,7 @@ from skillwrapper.runs.archive import (
     discard_beginning,
     make_archive,
     reserved,
+    restate_settings,
 )
 from skillwrapper.runs.events import Observer, RunEvent, RunStarted
 from skillwrapper.runs.model_sessions import CallCounter, open_session
@@ -67,6 +69,41 @@ def learn(
             return _run_in(Path(out), chosen, world, model, observers)
 
 
+def learn_recorded(
+    run: Path | str,
+    settings: RunSettings | None = None,
+    *,
+    model: VisionLanguageModel | None = None,
+    observers: Sequence[Observer] = (),
+) -> LearningResult:
+    """Learn from what is recorded in the folder of a run, and execute nothing.
+
+    Args:
+        run: folder of a run, or of an import.
+        settings: how; None for what the folder says. The number of iterations is that of the
+            recorded episodes.
+        model: as in ``learn``.
+        observers: as in ``learn``.
+
+    Raises:
+        UserError: if there is no run, nothing is recorded, or it was learned with other settings.
+        ProviderError: if a model does not answer.
+        LimitReachedError: if a limit of the user's is reached; the run can be resumed.
+    """
+    archive = RunArchive.open(Path(run))
+    episodes = archive.layout.recorded_episodes()
+    if not episodes:
+        raise RunFolderError(f"{run}: expected recorded episodes, got none; nothing to learn from")
+    chosen = (settings or archive.settings()).model_copy(update={"iterations": episodes})
+    if model is None:
+        check_models(chosen)
+    with reserved(archive.path):
+        restate_settings(archive, chosen)
+        make_archive(archive.path, chosen, archive.domain())
+        absent = RobotEnvironment(AbsentRobot(), archive.domain())
+        return _run(chosen, absent, model, archive, observers, is_all=True)
+
+
 def _run_in(
     out: Path,
     settings: RunSettings,
@@ -92,6 +129,8 @@ def _run(
     model: VisionLanguageModel | None,
     archive: RunArchive | None,
     observers: Sequence[Observer],
+    *,
+    is_all: bool = False,
 ) -> LearningResult:
     store = archive.layout.calls if archive else None
     with open_session(settings, store, model=model) as session:
@@ -99,7 +138,7 @@ def _run(
         earlier = None
         if archive is not None:
             watching.append(ArchiveWriter(archive))
-            earlier = EarlierRun(archive.episode, archive.layout.finished_iterations())
+            earlier = EarlierRun(archive.episode, archive.layout.finished_iterations(), is_all)
         watching += observers
         for observer in watching:
             observer(RunStarted(0, session.counter))

@@ -13,6 +13,7 @@ from typing import Any, Protocol, TypeVar
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation, Picture
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -98,6 +99,19 @@ class Filmed(Environment, Protocol):
         ...
 
 
+class Lasting(Environment, Protocol):
+    """It stays as it was left when the program ended, and can be taken up again."""
+
+    @property
+    def lasting(self) -> bool:
+        """True."""
+        ...
+
+    def take_up(self, scene: Scene) -> None:
+        """Go on in the scene in which it was left, without any reset."""
+        ...
+
+
 CAPABILITIES: Mapping[type, tuple[str, tuple[str, ...]]] = MappingProxyType(
     {
         Settable: ("settable", ("get_state", "set_state", "state_to_data", "state_from_data")),
@@ -106,6 +120,7 @@ CAPABILITIES: Mapping[type, tuple[str, tuple[str, ...]]] = MappingProxyType(
         Truthful: ("truthful", ("true_atoms",)),
         Judged: ("judged", ("goals", "is_reached")),
         Replayable: ("replayable", ("replayable",)),
+        Lasting: ("lasting", ("lasting", "take_up")),
         Filmed: ("filmed", ("film",)),
     }
 )

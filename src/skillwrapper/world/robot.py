@@ -41,9 +41,12 @@ class Robot(ABC):
     Attributes:
         replayable: whether the same seed and skills give the same pictures, byte for byte; of
             simulators only. A run that was cut short then goes on in the middle of an episode.
+        lasting: whether the world stays as it was left when the program ends, so that an episode
+            can be taken up again, perhaps days later.
     """
 
     replayable: bool = False
+    lasting: bool = False
 
     @abstractmethod
     def look(self) -> Look:
@@ -108,6 +111,15 @@ class RobotEnvironment:
     def replayable(self) -> bool:
         """Whether the robot says so."""
         return self._robot.replayable
+
+    @property
+    def lasting(self) -> bool:
+        """Whether the robot says so."""
+        return self._robot.lasting
+
+    def take_up(self, scene: Scene) -> None:
+        """Go on in a scene in which the robot was left."""
+        self._scene, self._is_ready = scene, True
 
     def __getattr__(self, name: str) -> Any:
         """A robot may also have goals of its own (``Judged``)."""

@@ -15,16 +15,24 @@ them, and is written anew by a resumed run where it is missing or damaged.
 """
 
 from skillwrapper.runs.archive.archive import ArchivedIteration, RunArchive
+from skillwrapper.runs.archive.episode_files import EpisodeFile
 from skillwrapper.runs.archive.labels import RecordedLabels
-from skillwrapper.runs.archive.making import discard_beginning, make_archive, reserved
+from skillwrapper.runs.archive.making import (
+    discard_beginning,
+    make_archive,
+    reserved,
+    restate_settings,
+)
 from skillwrapper.runs.archive.writer import ArchiveWriter
 
 __all__ = [
     "ArchiveWriter",
     "ArchivedIteration",
+    "EpisodeFile",
     "RecordedLabels",
     "RunArchive",
     "discard_beginning",
     "make_archive",
     "reserved",
+    "restate_settings",
 ]

@@ -195,13 +195,14 @@ class RunArchive:
             return None
         domain = self.domain()
         scene = _scene(header[0].scene, domain, f"{path}:1")
-        done = EpisodeSoFar(scene, header[0].seed, self.pictures.load(header[0].start))
+        start = self.pictures.load(header[0].start)
+        done = EpisodeSoFar(scene, header[0].seed, start, given=bool(header[0].given))
         for line, step in enumerate(read_records(path, ExecutionRecord, first=2), start=2):
             instance = SkillInstance(step.skill, step.arguments)
             _check_instance(instance, scene, domain, f"{path}:{line}")
             done.transitions.append(
                 Transition(
-                    before=done.observation,
+                    before=self.pictures.load(step.before) if step.before else done.observation,
                     instance=instance,
                     success=step.success,
                     after=self.pictures.load(step.after),

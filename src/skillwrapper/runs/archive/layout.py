@@ -60,6 +60,11 @@ class RunLayout:
         """The record of an episode, from 1."""
         return self.root / "episodes" / f"{number:03d}.jsonl"
 
+    def recorded_episodes(self) -> int:
+        """How many episodes are recorded: the highest number of one."""
+        names = (path.stem for path in (self.root / "episodes").glob("*.jsonl"))
+        return max((int(name) for name in names if name.isdigit()), default=0)
+
     def iteration(self, number: int) -> Path:
         """The folder of an iteration, from 1."""
         return self.root / "iterations" / f"{number:03d}"

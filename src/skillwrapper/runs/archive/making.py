@@ -51,15 +51,25 @@ def make_archive(path: Path, settings: RunSettings, domain: Domain) -> RunArchiv
         raise RunFolderError(
             f"{path} is not empty and holds no run; choose another --out, nothing was changed"
         )
+    # First what makes the folder a run: one that was stopped right here can be resumed.
+    _write_settings(layout, settings)
+    write_atomically(layout.domain, domain_to_yaml(domain))
+    return RunArchive(path)
+
+
+def restate_settings(archive: RunArchive, settings: RunSettings) -> None:
+    """Change what a run is asked to do that has episodes, but nothing was learned from them yet."""
+    if archive.layout.finished_iterations() == 0 and archive.settings().difference(settings):
+        _write_settings(archive.layout, settings)
+
+
+def _write_settings(layout: RunLayout, settings: RunSettings) -> None:
     entries = {
         "format": FORMAT,
         "run": settings.model_dump(mode="json"),
         "made_with": provenance().model_dump(mode="json"),
     }
-    # First what makes the folder a run: one that was stopped right here can be resumed.
     write_atomically(layout.config, yaml.safe_dump(entries, sort_keys=False))
-    write_atomically(layout.domain, domain_to_yaml(domain))
-    return RunArchive(path)
 
 
 def discard_beginning(archive: RunArchive) -> None:

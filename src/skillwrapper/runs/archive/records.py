@@ -37,20 +37,29 @@ class SceneRecord(Record):
 
 
 class EpisodeRecord(Record):
-    """The first line of an episode: where it started."""
+    """The first line of an episode: where it started.
+
+    A *given* episode is taken as it is: it was imported or executed for a goal, or a person ended
+    it. What else is recorded was chosen by the run, and is compared with what it chooses again.
+    """
 
     scene: SceneRecord
     seed: int
     start: tuple[PictureRecord, ...] = Field(min_length=1)
+    given: bool | None = None
 
 
 class ExecutionRecord(Record):
-    """Every further line of an episode: a skill, and what came of it."""
+    """Every further line of an episode: a skill, and what came of it.
+
+    ``before`` is there if the skill started from other pictures than the line above ended with.
+    """
 
     skill: str
     arguments: tuple[str, ...]
     success: bool
     message: str
+    before: tuple[PictureRecord, ...] | None = Field(default=None, min_length=1)
     after: tuple[PictureRecord, ...] = Field(min_length=1)
     changed: bool | None = None
 

@@ -11,23 +11,20 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.exploration.explorer import SequenceChoice
-from skillwrapper.files.writing import append_line, json_text, write_atomically
+from skillwrapper.files.writing import json_text, write_atomically
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.untested import find_untested
 from skillwrapper.perception.overruling import DecodingCertificate
-from skillwrapper.redaction import redact
 from skillwrapper.runs.archive.archive import RunArchive
+from skillwrapper.runs.archive.episode_files import EpisodeFile
 from skillwrapper.runs.archive.event_log import EventLog
 from skillwrapper.runs.archive.labels import truth_table
 from skillwrapper.runs.archive.records import (
     DecisionRecord,
     DecodingRecord,
-    EpisodeRecord,
     ErrorRatesRecord,
-    ExecutionRecord,
     InconsistencyRecord,
     OverruledRecord,
-    SceneRecord,
     SummaryRecord,
     WitnessRecord,
     to_plain,
@@ -60,7 +57,7 @@ class ArchiveWriter:
     """
 
     def __init__(self, archive: RunArchive) -> None:
-        self._archive, self._layout = archive, archive.layout
+        self._layout = archive.layout
         self._event_log = EventLog(archive.layout.events)
 
     def __call__(self, event: RunEvent) -> None:
@@ -77,25 +74,11 @@ class ArchiveWriter:
         self._log(event)
 
     def _start_episode(self, event: EpisodeStarted) -> None:
-        record = EpisodeRecord(
-            scene=SceneRecord(name=event.scene.name, objects=event.scene.names),
-            seed=event.seed,
-            start=self._archive.pictures.save(event.start),
-        )
-        append_line(self._layout.episode(event.iteration), to_plain(record))
+        EpisodeFile(self._layout, event.iteration).start(event.scene, event.seed, event.start)
 
     def _record(self, event: SkillExecuted) -> None:
-        transition = event.transition
-        record = ExecutionRecord(
-            skill=transition.instance.skill,
-            arguments=transition.instance.arguments,
-            success=transition.success,
-            message=redact(event.message),
-            after=self._archive.pictures.save(transition.after),
-            changed=transition.changed,
-        )
-        line = record.model_dump(mode="json", exclude_none=True)
-        append_line(self._layout.episode(event.iteration), line)
+        done = event.transition
+        EpisodeFile(self._layout, event.iteration).add(done, done.before, event.message)
 
     def _write_iteration(self, event: IterationFinished) -> None:
         """Describe an iteration; the summary comes last, and marks it finished."""

@@ -1,0 +1,229 @@
+"""Recordings of skills from elsewhere (docs/running.md), as the episodes of a run.
+
+A recording is taken as a whole or not at all: everything is read and checked first, and the folder
+of the run appears in one step.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from io import StringIO
+from pathlib import Path
+from typing import TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+
+from skillwrapper.domains.package import DomainPackage
+from skillwrapper.errors import FileError, RunFolderError, UserError
+from skillwrapper.files.json_documents import parse_record, read_text
+from skillwrapper.files.writing import explained
+from skillwrapper.runs.archive import EpisodeFile, make_archive
+from skillwrapper.runs.episodes import EpisodeSoFar
+from skillwrapper.runs.settings import RunSettings
+from skillwrapper.world.domain import Domain
+from skillwrapper.world.episode import Transition
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.pictures import load_picture
+from skillwrapper.world.skills import SkillInstance
+
+Result = TypeVar("Result")
+
+_TRUTH: Mapping[str, bool] = {"true": True, "false": False, "1": True, "0": False}
+COLUMNS = ("episode", "skill", "arguments", "success", "before", "after", "scene")
+"""Of a recording; ``scene`` may be missing."""
+
+
+class RecordedRow(BaseModel):
+    """A line of a recording: one execution of a skill.
+
+    In CSV, arguments are separated by blanks; several cameras are ``front=a.png top=b.png``.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    episode: str = Field(min_length=1, coerce_numbers_to_str=True)
+    skill: str
+    arguments: tuple[str, ...]
+    success: bool
+    before: dict[str, str]
+    after: dict[str, str]
+    scene: str | None = None
+
+    @field_validator("arguments", mode="before")
+    @classmethod
+    def _split_arguments(cls, value: object) -> object:
+        return tuple(value.replace(",", " ").split()) if isinstance(value, str) else value
+
+    @field_validator("success", mode="before")
+    @classmethod
+    def _read_truth(cls, value: object) -> object:
+        known = _TRUTH.get(str(value).strip().lower())
+        if known is None:
+            raise ValueError("expected true or false")
+        return known
+
+    @field_validator("before", "after", mode="before")
+    @classmethod
+    def _split_cameras(cls, value: object) -> object:
+        if not isinstance(value, str):
+            return value
+        parts = [part.partition("=") for part in value.split()] if "=" in value else []
+        if parts and all(equals and file for _, equals, file in parts):
+            return {camera: file for camera, _, file in parts}
+        return {"main": value.strip()}
+
+    @field_validator("scene", mode="before")
+    @classmethod
+    def _no_scene(cls, value: object) -> object:
+        return value or None
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A row with where it stands."""
+
+    row: RecordedRow
+    where: str
+
+
+def read_recording(path: Path, domain: Domain) -> tuple[EpisodeSoFar, ...]:
+    """The episodes of a recording, in the order of their first rows.
+
+    Args:
+        path: a file ``.csv`` with a line of column names, or ``.jsonl``; pictures are named
+            relative to it.
+        domain: what skills and objects there are.
+
+    Raises:
+        UserError: if anything in it is not what it should be; names file and line.
+    """
+    episodes: dict[str, EpisodeSoFar] = {}
+    pictures = _Pictures(path.parent)
+    for place in _rows(path):
+        _checked(place.where, partial(_take, place.row, episodes, domain, pictures))
+    if not episodes:
+        raise FileError(f"{path}: expected at least one execution, got none")
+    return tuple(episodes.values())
+
+
+def import_recording(package: DomainPackage, path: Path, out: Path) -> tuple[EpisodeSoFar, ...]:
+    """Make the folder of a run out of a recording; nothing is learned yet.
+
+    Args:
+        package: the domain.
+        path: the recording.
+        out: the folder, which does not exist yet.
+
+    Raises:
+        UserError: if anything in it is not what it should be, or the folder exists; then there is
+            no folder.
+    """
+    if out.exists():
+        raise RunFolderError(f"{out}: expected a new folder, got one that exists; choose another")
+    episodes = read_recording(path, package.domain)
+    settings = RunSettings(domain=package.reference, iterations=len(episodes))
+    beginning = out.with_name(f".{out.name}.{os.getpid()}.tmp")
+    try:
+        archive = make_archive(beginning, settings, package.domain)
+        for number, episode in enumerate(episodes, start=1):
+            file = EpisodeFile(archive.layout, number)
+            file.start(episode.scene, episode.seed, episode.start, given=True)
+            seen = episode.start
+            for transition in episode.transitions:
+                file.add(transition, seen)
+                seen = transition.after
+        with explained(out):
+            beginning.rename(out)
+    finally:
+        shutil.rmtree(beginning, ignore_errors=True)
+    return episodes
+
+
+class _Pictures:
+    """Reads each file once."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._known: dict[tuple[tuple[str, str], ...], Observation] = {}
+
+    def load(self, files: Mapping[str, str]) -> Observation:
+        """The observation of some cameras."""
+        if not files or not all(files.values()):
+            raise FileError("expected a picture, got none")
+        key = tuple(files.items())
+        if key not in self._known:
+            self._known[key] = Observation(
+                tuple(load_picture(self._folder / file, camera) for camera, file in key)
+            )
+        return self._known[key]
+
+
+def _take(
+    row: RecordedRow, episodes: dict[str, EpisodeSoFar], domain: Domain, pictures: _Pictures
+) -> None:
+    """Add a row to the episode that it is of."""
+    scene = domain.scene(row.scene)
+    instance = SkillInstance(row.skill, row.arguments)
+    domain.check_instance(instance, scene)
+    before, after = pictures.load(row.before), pictures.load(row.after)
+    episode = episodes.setdefault(row.episode, EpisodeSoFar(scene, 0, before, given=True))
+    if episode.scene != scene:
+        raise FileError(
+            f"expected episode '{row.episode}' to stay in the scene '{episode.scene.name}', "
+            f"got '{scene.name}'"
+        )
+    for seen in (before, after):
+        if _cameras(seen) != _cameras(episode.start):
+            expected, got = ", ".join(_cameras(episode.start)), ", ".join(_cameras(seen))
+            raise FileError(f"expected pictures of {expected} as before, got {got}")
+    episode.transitions.append(Transition(before, instance, row.success, after))
+
+
+def _rows(path: Path) -> Iterator[_Place]:
+    match path.suffix.lower():
+        case ".csv":
+            yield from _csv_rows(path)
+        case ".jsonl":
+            for number, line in enumerate(read_text(path).splitlines(), start=1):
+                if line.strip():
+                    where = f"{path}:{number}"
+                    yield _Place(parse_record(line, RecordedRow, where), where)
+        case _:
+            raise FileError(f"{path}: expected a file .csv or .jsonl; its name says neither")
+
+
+def _csv_rows(path: Path) -> Iterator[_Place]:
+    reader = csv.DictReader(StringIO(read_text(path), newline=""), strict=True)
+    try:
+        names = [name.strip() for name in reader.fieldnames or ()]
+        if set(names) | {"scene"} != set(COLUMNS) or len(set(names)) < len(names):
+            raise FileError(
+                f"{path}:1: expected the columns {', '.join(COLUMNS)} (scene may be missing), "
+                f"got {', '.join(names) or 'none'}"
+            )
+        reader.fieldnames = names
+        for entries in reader:
+            where = f"{path}:{reader.line_num}"
+            if None in entries or None in entries.values():
+                raise FileError(f"{where}: expected {len(names)} values, got another number")
+            yield _Place(parse_record(json.dumps(entries), RecordedRow, where), where)
+    except csv.Error as error:
+        raise FileError(f"{path}:{reader.line_num}: expected CSV ({error})") from error
+
+
+def _checked(where: str, call: Callable[[], Result]) -> Result:
+    """The result of a call; what is wrong gets its place."""
+    try:
+        return call()
+    except UserError as error:
+        raise FileError(f"{where}: {error}") from error
+
+
+def _cameras(seen: Observation) -> list[str]:
+    return sorted(picture.camera for picture in seen.pictures)
