@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import importlib
 import json
+import logging
 import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, partial
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from benchmarks.action_models.metrics import TestState
 from skillwrapper.action_models.amlgym import SkillWrapper
 from skillwrapper.action_models.strips import read_objects
 
 OURS = "ours"
-BASELINES = ("sam", "offlam", "nolam", "rosame")
-"""Those of AMLGym; ``sam`` leaves negative preconditions out there."""
+POSITIVE_SAM = "sam-nonneg"
+"""SAM that learns no negative preconditions, which loses fewer states and is as sound here."""
+
+BASELINES = ("sam", POSITIVE_SAM, "offlam", "nolam", "rosame")
+"""The learners that AMLGym carries."""
 
 
 def root() -> Path:
@@ -71,17 +77,42 @@ def test_states(domain: str) -> Iterator[TestState]:
 
 
 @cache
-def _algorithm(name: str) -> object:
+def _algorithm(name: str) -> Any:
     if name == OURS:
         return SkillWrapper()
-    return importlib.import_module("amlgym.algorithms").get_algorithm(name)
+    logging.disable(logging.WARNING)
+    algorithms = importlib.import_module("amlgym.algorithms")
+    if name == POSITIVE_SAM:
+        policy = importlib.import_module("utilities").NegativePreconditionPolicy.hard
+        module = importlib.import_module("amlgym.algorithms.SAM")
+        return _Patched(algorithms.get_algorithm("sam"), module, "SAMLearner", policy)
+    return algorithms.get_algorithm(name)
+
+
+@dataclass(frozen=True)
+class _Patched:
+    """SAM with the policy on negative preconditions that AMLGym's adapter does not pass on."""
+
+    algorithm: Any
+    module: Any
+    name: str
+    policy: Any
+
+    def learn(self, *arguments: object) -> str:
+        plain = getattr(self.module, self.name)
+        patched = partial(plain, negative_preconditions_policy=self.policy)
+        setattr(self.module, self.name, patched)
+        try:
+            return str(self.algorithm.learn(*arguments))
+        finally:
+            setattr(self.module, self.name, plain)
 
 
 def learn(learner: str, domain: Path, traces: Sequence[Path]) -> str:
     """The domain that a learner makes of traces, as PDDL."""
     algorithm = _algorithm(learner)
-    with _scratch(), redirect_stdout(Path(os.devnull).open("w")):
-        return str(algorithm.learn(str(domain), [str(path) for path in traces]))  # type: ignore[attr-defined]
+    with _scratch(), Path(os.devnull).open("w") as nowhere, redirect_stdout(nowhere):
+        return str(algorithm.learn(str(domain), [str(path) for path in traces]))
 
 
 @contextmanager

@@ -93,6 +93,10 @@ class DomainSkeleton:
         """Whether whatever a name stands for may stand where a predicate takes a parameter."""
         return all(any(self._is(own, wanted) for wanted in slot.types) for own in thing.types)
 
+    def accepts(self, kind: str, slot: TypedName) -> bool:
+        """Whether an object of a type may stand where an action takes a parameter."""
+        return self.fits(TypedName("", (kind,)), slot)
+
     def atoms_of(self, action: Schema) -> Iterator[LiftedAtom]:
         """All atoms over the action's parameters and the constants, in a fixed order."""
         things = (*action.parameters, *self.constants)

@@ -22,6 +22,7 @@ from skillwrapper.cli import (
     settings,
     simulation,
     studies,
+    theory,
     verification,
 )
 from skillwrapper.cli.output import messages
@@ -48,6 +49,7 @@ _GROUPS = (
     experiments,
     reporting,
     studies,
+    theory,
     model_calls,
     settings,
     simulation,
