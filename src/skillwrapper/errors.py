@@ -21,6 +21,7 @@ SkillWrapperError
 │   └── RecordingError        a recorded run was asked something it never heard
 ├── LimitReachedError         nobody: a limit the user set was reached; the run can be resumed
 ├── RobotError                the environment: a robot or simulator did not do its part
+│   ├── EmergencyStopError    ... because somebody stopped it
 │   └── ConformanceError      its author: it breaks a rule that every environment must keep
 └── InternalError             us: please report it
 """
@@ -170,6 +171,10 @@ class LimitReachedError(SkillWrapperError):
 
 class RobotError(SkillWrapperError):
     """A robot or simulator did not do its part."""
+
+
+class EmergencyStopError(RobotError):
+    """The emergency stop of a robot says that nothing may move."""
 
 
 class ConformanceError(RobotError):

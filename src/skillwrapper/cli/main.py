@@ -9,6 +9,7 @@ from rich.text import Text
 
 from skillwrapper.cli import (
     domains,
+    execution,
     experiments,
     learning,
     model_calls,
@@ -38,6 +39,7 @@ app = typer.Typer(
 )
 _GROUPS = (
     projects,
+    execution,
     recording,
     learning,
     models,

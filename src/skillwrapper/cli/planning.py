@@ -62,7 +62,7 @@ def plan(
     """Find plans from a picture of the start to a goal."""
     with LearnedModel.load(run) as learned:
         start = learned.read(load_pictures(init), scene=scene)
-        wanted = _goal(learned, goal, scene, positive)
+        wanted = read_goal(learned, goal, scene, positive)
         found = learned.plan(start, wanted, plans=plans, time_limit=time_limit, keep_files=keep)
     if as_json:
         print_json(_describe(found))
@@ -94,7 +94,7 @@ def solve(
         closing(find_domain(learned.settings.domain).make_environment()) as environment,
     ):
         present = learned.domain.scene(scene)
-        wanted = _goal(learned, goal, scene, positive)
+        wanted = read_goal(learned, goal, scene, positive)
 
         def reset() -> Observation:
             return environment.reset(seed=init_seed, scene=present.name)
@@ -126,7 +126,9 @@ def solve(
         raise typer.Exit(1)
 
 
-def _goal(learned: LearnedModel, parts: Sequence[str], scene: str | None, positive: bool) -> Goal:
+def read_goal(
+    learned: LearnedModel, parts: Sequence[str], scene: str | None, positive: bool
+) -> Goal:
     """What the pictures and the expressions ask for, all together."""
     pictures = [part for part in parts if is_picture_file(part)]
     goals = [learned.goal(part, scene=scene) for part in parts if part not in pictures]

@@ -11,6 +11,7 @@ from skillwrapper.robots.messages import PROTOCOL, pack_picture
 from skillwrapper.world.capabilities import Lasting, Replayable, supports
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.robot import RobotEnvironment
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -44,6 +45,7 @@ class _Server:
     def __init__(self, environment: Environment) -> None:
         self._environment = environment
         self._seen: Observation | None = None
+        self._is_ready = False
 
     def answer(self, call: dict[str, Any]) -> dict[str, Any]:
         """What a call is answered with."""
@@ -55,9 +57,11 @@ class _Server:
                     "lasting": supports(self._environment, Lasting),
                 }
             case "prepare":
+                self._is_ready = True
                 self._seen = self._environment.reset(seed=call["seed"], scene=call["scene"])
                 return {"scene": list(self._environment.scene.names)}
             case "look":
+                self._take_up()
                 seen, self._seen = self._seen or self._environment.observe(), None
                 return {"pictures": {p.camera: pack_picture(p.png) for p in seen.pictures}}
             case "run":
@@ -67,7 +71,14 @@ class _Server:
                 return {}
         return {"error": f"expected hello, prepare, look, run or stop, got {call['call']!r}"}
 
+    def _take_up(self) -> None:
+        """Stand ready as the robot stands, if nobody asked it to prepare a start."""
+        if not self._is_ready and isinstance(self._environment, RobotEnvironment):
+            self._environment.take_up(self._environment.present())
+        self._is_ready = True
+
     def _run(self, instance: SkillInstance) -> dict[str, Any]:
+        self._take_up()
         outcome = self._environment.execute(instance)
         self._seen = outcome.observation
         told = {"success": outcome.success, "message": outcome.message}

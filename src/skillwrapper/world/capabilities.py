@@ -112,6 +112,14 @@ class Lasting(Environment, Protocol):
         ...
 
 
+class Haltable(Environment, Protocol):
+    """It has an emergency stop that can be looked at."""
+
+    def halted(self) -> str | None:
+        """Why nothing may move now; None if it may. Is asked often, also while a skill runs."""
+        ...
+
+
 CAPABILITIES: Mapping[type, tuple[str, tuple[str, ...]]] = MappingProxyType(
     {
         Settable: ("settable", ("get_state", "set_state", "state_to_data", "state_from_data")),
@@ -121,6 +129,7 @@ CAPABILITIES: Mapping[type, tuple[str, tuple[str, ...]]] = MappingProxyType(
         Judged: ("judged", ("goals", "is_reached")),
         Replayable: ("replayable", ("replayable",)),
         Lasting: ("lasting", ("lasting", "take_up")),
+        Haltable: ("haltable", ("halted",)),
         Filmed: ("filmed", ("film",)),
     }
 )

@@ -80,7 +80,11 @@ class Robot(ABC):
         return None
 
     def stop(self) -> None:  # noqa: B027
-        """Release what the robot holds; is called once, at the end."""
+        """Release what the robot holds; is called once, at the end.
+
+        A robot with an emergency stop has a method ``halted`` besides, which says why nothing may
+        move now, or None.
+        """
 
 
 class RobotEnvironment:
@@ -118,12 +122,22 @@ class RobotEnvironment:
         return self._robot.lasting
 
     def take_up(self, scene: Scene) -> None:
-        """Go on in a scene in which the robot was left."""
+        """Go on as the robot stands now, in a scene that is present."""
         self._scene, self._is_ready = scene, True
 
+    def present(self, scene: str | None = None) -> Scene:
+        """What is present now, as the robot says, or the scene that is asked for.
+
+        Raises:
+            UnknownNameError: if there is no such scene.
+            RobotError: if the robot fails, or tells of objects that do not exist.
+        """
+        wanted = self._domain.scene(scene)
+        return wanted if scene is not None else self._find_scene(wanted)
+
     def __getattr__(self, name: str) -> Any:
-        """A robot may also have goals of its own (``Judged``)."""
-        if name in ("goals", "is_reached"):
+        """A robot may also have goals of its own (``Judged``), and an emergency stop."""
+        if name in ("goals", "is_reached", "halted"):
             return getattr(self._robot, name)
         raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
 
