@@ -11,11 +11,20 @@ import sysconfig
 import venv
 from collections.abc import Sequence
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 
 REPOSITORY = Path(__file__).parents[1]
 EXAMPLE = REPOSITORY / "examples" / "greenhouse"
+
+
+_COMMANDS = """
+import json, sys
+from skillwrapper.cli.main import app
+for line in json.loads(sys.argv[1]):
+    app(line, standalone_mode=False)
+"""
 
 
 class Installed:
@@ -31,24 +40,26 @@ class Installed:
         # editable installation that is there too.
         (packages / "dependencies.pth").write_text(sysconfig.get_path("purelib") + "\n")
         source, wheels = _copy_of_source(folder / "source"), folder / "wheels"
-        pip = (sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet")
-        self._do([*pip, "wheel", "--no-deps", "--no-build-isolation", "-w", wheels, source])
-        wheel = next(wheels.glob("skillwrapper-*.whl"))
-        self._do([*pip, "install", "--no-deps", "--target", packages, wheel])
+        wheels.mkdir()
+        build = "import sys; from setuptools import build_meta; build_meta.build_wheel(sys.argv[1])"
+        self._do([sys.executable, "-c", build, wheels], source)
+        with ZipFile(next(wheels.glob("skillwrapper-*.whl"))) as wheel:
+            wheel.extractall(packages)  # all that installing a wheel without scripts is
 
     def python(self, *arguments: object) -> str:
         """Standard output of its interpreter."""
         return self._do([self._bin / "python", *arguments])
 
-    def skillwrapper(self, *arguments: object) -> str:
-        """Standard output of a command."""
-        return self.python("-m", "skillwrapper", *arguments)
+    def skillwrapper(self, *lines: Sequence[object]) -> str:
+        """Standard output of commands, in one process."""
+        told = json.dumps([list(map(str, line)) for line in lines])
+        return self.python("-c", _COMMANDS, told)
 
-    def _do(self, command: Sequence[object]) -> str:
+    def _do(self, command: Sequence[object], where: Path | None = None) -> str:
         free = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
         done = subprocess.run(
             [str(part) for part in command],
-            cwd=self._folder,
+            cwd=where or self._folder,
             env=free,
             capture_output=True,
             text=True,
@@ -85,32 +96,27 @@ def greenhouse(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_learns_verifies_and_reports(
+def test_it_learns_verifies_reports_and_compares(
     installed: Installed, greenhouse: Path, tmp_path: Path
 ) -> None:
-    run = tmp_path / "run"
-    installed.skillwrapper("learn", greenhouse, "--out", run, "--iterations", 2)
-    assert "precision" in installed.skillwrapper("verify", run, "--json")
-    installed.skillwrapper("report", run)
-    assert (run / "report.html").is_file()
-
-
-def test_learns_a_bundled_domain(installed: Installed, tmp_path: Path) -> None:
-    size = ("--iterations", 1, "--budget", 4)
-    installed.skillwrapper("learn", "burger", "--out", tmp_path / "run", *size)
-    assert (tmp_path / "run" / "model" / "domain.pddl").is_file()
-
-
-def test_runs_an_experiment(installed: Installed, greenhouse: Path, tmp_path: Path) -> None:
-    problems, file = tmp_path / "problems.yaml", tmp_path / "tiny.yaml"
-    few = ("--easy", 1, "--hard", 0, "--impossible", 0)
-    installed.skillwrapper("problems", greenhouse, *few, "--out", problems)
+    """On a domain in a folder; on a bundled one it learns."""
+    run, problems, out = tmp_path / "run", tmp_path / "problems.yaml", tmp_path / "tiny"
+    file = tmp_path / "tiny.yaml"
     file.write_text(
         f"name: tiny\nmethods: [random]\ndomains: [{greenhouse}]\nseeds: [0]\n"
         "settings: {iterations: 1, exploration: {budget: 4}}\n"
         "problems: {file: problems.yaml}\n"
     )
-    out = tmp_path / "tiny"
-    installed.skillwrapper("experiment", "run", file, "--out", out)
-    table = json.loads(installed.skillwrapper("experiment", "table", out, "--format", "json"))
-    assert [method["method"] for method in table["methods"]] == ["random"]
+    said = installed.skillwrapper(
+        ("learn", greenhouse, "--out", run, "--iterations", 1, "--budget", 8),
+        ("verify", run, "--json"),
+        ("report", run),
+        ("learn", "burger", "--out", tmp_path / "burger", "--iterations", 1, "--budget", 4),
+        ("problems", greenhouse, "--easy", 1, "--hard", 0, "--impossible", 0, "--out", problems),
+        ("experiment", "run", file, "--out", out),
+        ("experiment", "table", out, "--format", "json"),
+    )
+    assert '"precision"' in said
+    assert (run / "report.html").is_file()
+    assert (tmp_path / "burger" / "model" / "domain.pddl").is_file()
+    assert '"method": "random"' in said

@@ -14,7 +14,7 @@ from functools import cached_property
 from pathlib import Path
 
 import pytest
-from damage import damage
+from benchmarks.damage import damage
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lamps import LampAssistant, LampEnvironment, lamp_domain

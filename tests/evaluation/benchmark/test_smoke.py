@@ -1,4 +1,4 @@
-"""The shipped experiment ``smoke.yaml``, as a user runs it: every method from start to end."""
+"""The shipped experiment ``smoke.yaml``, with less to learn: every method from start to end."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def test_smoke(tmp_path: Path) -> None:
     app = typer.Typer()
     experiments.register(app)
     out = tmp_path / "smoke"
-    done = CliRunner().invoke(
-        app, ["experiment", "run", str(SMOKE), "--out", str(out), "--json"], catch_exceptions=False
-    )
+    line = ["experiment", "run", str(SMOKE), "--out", str(out), "--json"]
+    less = ["--set", "iterations=2", "--set", "exploration.budget=12"]
+    done = CliRunner().invoke(app, [*line, *less], catch_exceptions=False)
 
     assert done.exit_code == 0, done.output
     report = json.loads(done.stdout)

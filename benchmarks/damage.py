@@ -1,4 +1,4 @@
-"""Damaging files in the ways that crashes, disks and editors do, for tests of readers."""
+"""Damaging files in the ways that crashes, disks and editors do."""
 
 from __future__ import annotations
 
