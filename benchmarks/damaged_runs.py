@@ -3,8 +3,9 @@
 Run: ``python -m benchmarks.damaged_runs [COUNT [SEED]]`` (2,000 and 0 by default). Each time one
 file of a finished run in the greenhouse of ``examples/``, or of an experiment there, is damaged in
 one of the ways of ``benchmarks.damage``, and one command reads it: it must end well or with one
-sentence that names the file. ``learn`` and ``experiment run`` must, where they end well, have
-mended the folder; ``calls.sqlite`` is left out of that, as a reply that reads otherwise is one.
+sentence that names the file. ``learn`` must, where it ends well, have mended the folder; left out
+of that are ``calls.sqlite``, as a reply that reads otherwise is one, and what lines of the log tell
+of events that happened. ``experiment run`` does not look into cells that are finished.
 """
 
 from __future__ import annotations
@@ -99,10 +100,10 @@ class Damaged:
         said = _run([part.format(*names) for part in command.split()])
         if said is not None:
             return Outcome(command, name, *_judge(said, file))
-        if not command.startswith(("learn", "experiment run")) or "replay" in command:
+        if not command.startswith("learn") or "replay" in command:
             return Outcome(command, name, "ended well")
         other = _difference(self._whole[kind], contents(folder))
-        is_mended = not other or name.endswith(".sqlite")
+        is_mended = not other or name.endswith((".sqlite", "events.jsonl"))
         return Outcome(command, name, "mended" if is_mended else "not mended", other)
 
 

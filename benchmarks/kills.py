@@ -239,9 +239,14 @@ def _silently(command: Command, folder: Path) -> None:
     command(folder)
 
 
+def learn_in(domain: str, iterations: int, budget: int, folder: Path) -> None:
+    """``learn`` for so long."""
+    learn({"domain": domain, "iterations": iterations, "exploration.budget": budget}, folder)
+
+
 def learn_greenhouse(folder: Path) -> None:
     """``learn`` in two scenes."""
-    learn({"domain": str(GREENHOUSE), "iterations": 2, "exploration.budget": 8}, folder)
+    learn_in(str(GREENHOUSE), 2, 8, folder)
 
 
 def compare_in_greenhouse(folder: Path) -> None:

@@ -79,6 +79,10 @@ def config(url: str | None = None, **calls: object) -> RunSettings:
     )
 
 
+def short() -> RunSettings:
+    return config().model_copy(update={"exploration": ExplorationSettings(budget=3)})
+
+
 def model_of(run: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted((run / "model").iterdir())}
 
@@ -121,10 +125,10 @@ def test_a_resumed_run_goes_the_way_it_went_whatever_the_model_would_say_now(
 
 def test_a_finished_run_is_not_replaced_by_a_shorter_one(tmp_path: Path) -> None:
     run = tmp_path / "run"
-    learn(config(), run)
+    learn(short(), run)
     before = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
     with pytest.raises(RunFolderError, match=r"2 iterations are finished.*--iterations 2 or more"):
-        learn(config().model_copy(update={"iterations": 1}), run)
+        learn(short().model_copy(update={"iterations": 1}), run)
     after = {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
     assert after == before
 
@@ -132,9 +136,9 @@ def test_a_finished_run_is_not_replaced_by_a_shorter_one(tmp_path: Path) -> None
 def test_two_processes_do_not_learn_in_one_folder(tmp_path: Path) -> None:
     run = tmp_path / "run"
     with reserved(run), pytest.raises(RunFolderError, match="another process is learning"):
-        learn(config(), run)
+        learn(short(), run)
     assert not run.exists()
-    learn(config(), run)
+    learn(short(), run)
 
 
 def test_a_mistake_that_only_the_server_notices_leaves_nothing_behind(tmp_path: Path) -> None:

@@ -53,7 +53,9 @@ def calls(
     readings = _readings(archive)
     with archive.open_calls() as store:
         if store is None:
-            raise RunFolderError(f"{run}: expected recorded model calls, got none")
+            raise RunFolderError(
+                f"{archive.layout.calls}: expected recorded calls, got no such file"
+            )
         found = list(store.calls(role=role, iteration=iteration, status=status))
         totals = [
             t for t in store.totals() if role in {None, t.role} and iteration in {None, t.iteration}

@@ -150,7 +150,8 @@ class CallStore:
                 f"SELECT {COLUMNS} FROM calls WHERE {condition} ORDER BY number",
                 tuple(chosen.values()),
             ).fetchall()
-        return map(call_of, rows)
+            with _as_damage():
+                return iter([call_of(row) for row in rows])
 
     def totals(self) -> tuple[CallTotals, ...]:
         """What the calls took, by iteration and role."""
@@ -163,7 +164,8 @@ class CallStore:
             taken_over = connection.execute(
                 "SELECT role, iteration, COUNT(*) FROM calls WHERE shared GROUP BY role, iteration"
             ).fetchall()
-        return join_totals(made, served, taken_over)
+            with _as_damage():
+                return join_totals(made, served, taken_over)
 
     def flush(self) -> None:
         """Write what was gathered."""
@@ -193,7 +195,8 @@ class CallStore:
                 " ORDER BY status <> ?, number LIMIT 1",
                 (value, *statuses, CallStatus.ANSWERED),
             ).fetchone()
-        return call_of(row) if row else None
+            with _as_damage():
+                return call_of(row) if row else None
 
     def _open(self) -> sqlite3.Connection:
         if self._read_only and not self.path.is_file():
@@ -274,6 +277,15 @@ SELECT role, iteration, COUNT(*), SUM(status <> ?),
     SUM(seconds)
 FROM calls WHERE NOT shared GROUP BY role, iteration
 """
+
+
+@contextmanager
+def _as_damage() -> Iterator[None]:
+    """Rows that hold something else than calls are damage of the file."""
+    try:
+        yield
+    except (ValueError, TypeError) as error:
+        raise sqlite3.DatabaseError(f"a call cannot be read: {error}") from error
 
 
 def _one_line(error: Exception) -> str:

@@ -167,9 +167,19 @@ def row_of(call: StoredCall) -> tuple[Any, ...]:
 
 
 def call_of(row: Sequence[Any]) -> StoredCall:
-    """A call from its row."""
+    """A call from its row.
+
+    Raises:
+        ValueError: if the row holds something else.
+    """
     key, question, status, shared, role, iteration, model, parameters, repetition = row[:9]
     system, prompt, pictures, reply, tokens_in, tokens_out, cost, seconds = row[9:]
+    texts = (key, question, status, role, model, parameters, system, prompt, pictures, reply)
+    numbers = (iteration, repetition, tokens_in, tokens_out, cost, seconds)
+    if not all(isinstance(text, str) for text in texts):
+        raise ValueError("expected text")
+    if not all(number is None or isinstance(number, int | float) for number in numbers):
+        raise ValueError("expected numbers")
     return StoredCall(
         key=key,
         question=question,

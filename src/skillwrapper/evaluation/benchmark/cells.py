@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from skillwrapper.errors import RunFolderError
+from skillwrapper.errors import FileError, RunFolderError
 from skillwrapper.evaluation.benchmark.call_costs import learning_costs, solving_costs
+from skillwrapper.evaluation.benchmark.cell_records import CellRecord, ProblemLine
 from skillwrapper.evaluation.benchmark.efficiency import efficiency_of
 from skillwrapper.evaluation.exact.learning_curves import write_curve
 from skillwrapper.evaluation.exact.verification import verify
@@ -18,7 +19,7 @@ from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.method import CellContext, Method, Prepared
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.problems.results import ProblemResult
-from skillwrapper.files.json_documents import read_lines
+from skillwrapper.files.json_documents import read_json, read_records, read_text
 from skillwrapper.files.writing import append_line, write_json
 
 RESULT = "result.json"
@@ -61,18 +62,17 @@ class CellResult:
         """The result of a finished cell.
 
         Raises:
-            RunFolderError: if the file was damaged.
+            RunFolderError: if the file was damaged; names the line.
         """
         path = folder / RESULT
         try:
-            data = json.loads(path.read_text(encoding="utf-8"))
-            problems = tuple(ProblemResult.from_json(p) for p in data["problems"])
-            return cls(**{**data, "cell": Cell(**data["cell"]), "problems": problems})
-        except (ValueError, KeyError, TypeError) as error:
+            record = read_json(path, CellRecord)
+        except FileError as error:
             raise RunFolderError(
-                f"{path}: expected the result of a cell, got something else ({error}); "
-                "remove the file and run the experiment again"
+                f"{error}; remove the file and run the experiment again"
             ) from error
+        data = json.loads(read_text(path))
+        return cls(**{**data, "cell": record.cell, "problems": record.problems})
 
 
 def run_cell(
@@ -136,7 +136,8 @@ def _solve_all(
     solved: Callable[[ProblemResult], None],
 ) -> tuple[ProblemResult, ...]:
     """Solve the problems that are not on record yet."""
-    results = {line["problem"]: ProblemResult.from_json(line) for line in read_lines(record)}
+    known = (line.root for line in read_records(record, ProblemLine))
+    results = {result.problem: result for result in known}
     for problem in problems.problems:
         if problem.name not in results:
             results[problem.name] = prepared.solver.solve(problem)

@@ -19,13 +19,14 @@ import yaml
 
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import RunFolderError
+from skillwrapper.evaluation.benchmark.cell_records import RunLine
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
 from skillwrapper.evaluation.benchmark.experiments import CommandRecord, Experiment
 from skillwrapper.evaluation.methods.cell import Cell, domain_key
 from skillwrapper.evaluation.problems.problem_files import read_problems, write_problems
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.published import PublishedResults, published_figures
-from skillwrapper.files.json_documents import read_lines
+from skillwrapper.files.json_documents import read_records
 from skillwrapper.files.writing import append_line, is_leftover, remove_leftovers, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.redaction import redact
@@ -106,8 +107,8 @@ class ExperimentFolder:
 
     def runs(self) -> tuple[CommandRecord, ...]:
         """The commands that ran cells, in order of time."""
-        lines = read_lines(self.path / _RUNS)
-        return tuple(CommandRecord(line["command"], line["made_with"]) for line in lines)
+        lines = read_records(self.path / _RUNS, RunLine)
+        return tuple(CommandRecord(line.command, line.made_with.model_dump()) for line in lines)
 
     def published(self) -> dict[str, PublishedResults]:
         """What others published of the domains, for the same methods."""
@@ -145,7 +146,7 @@ class ExperimentFolder:
         cells = (cell for cell in self.experiment().cells if not self.is_finished(cell))
         files = {cell.name: self.cell(cell) / ERROR for cell in cells}
         return {
-            name: file.read_text(encoding="utf-8").partition("\n")[0]
+            name: file.read_text(encoding="utf-8", errors="replace").partition("\n")[0]
             for name, file in files.items()
             if file.is_file()
         }

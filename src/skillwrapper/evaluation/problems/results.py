@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
@@ -85,17 +84,3 @@ class ProblemResult:
     def to_json(self) -> dict[str, Any]:
         """Plain data with the attributes as keys."""
         return {**vars(self), "plan": list(self.plan)}
-
-    @classmethod
-    def from_json(cls, data: Mapping[str, Any]) -> ProblemResult:
-        """What ``to_json`` described."""
-        cause = data["cause"]
-        return cls(
-            **{
-                **data,
-                "kind": ProblemClass(data["kind"]),
-                "cause": None if cause is None else Cause(cause),
-                "plan": tuple(data["plan"]),
-                "judge": Judge(data.get("judge", Judge.ENVIRONMENT)),
-            }
-        )
