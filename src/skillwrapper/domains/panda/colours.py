@@ -41,7 +41,7 @@ def _gain(pixels: Pixels) -> Floats:
     """By what red, green and blue must grow (3,) for the table to have its usual colour."""
     sample = pixels[pixels.shape[0] // 3 :: 4, ::4].reshape(-1, 3).astype(np.float64)
     hue, saturation, value = _hue_saturation_value(sample / 255)
-    wooden = (saturation > 0.2) & (saturation < 0.65) & (value > 0.15)
+    wooden = (saturation > 0.2) & (saturation < 0.85) & (value > 0.15)
     wooden &= (hue > _WOOD_HUES[0] - 15) & (hue < _WOOD_HUES[1] + 15)
     if wooden.sum() < len(sample) // 10:
         return np.ones(3)
