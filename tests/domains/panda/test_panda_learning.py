@@ -1,4 +1,4 @@
-"""The whole way: learned in three scenes from pictures, checked in all states of a fourth as well."""
+"""The whole way: learned in three scenes from pictures, checked in all states of a fourth too."""
 
 from __future__ import annotations
 
