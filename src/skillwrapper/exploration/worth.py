@@ -159,7 +159,7 @@ def _relative(expected: Expectations, scene: SceneRoles, unproven: frozenset[str
     )
     for kind in dict.fromkeys(kinds):
         own = np.array([k == kind for k in kinds], dtype=bool)
-        found[:, own] /= max(float(found[:, own].max(initial=0.0)), 1e-12)
+        found[:, own] /= max(float(found[:, own].max(initial=0.0)), 1e-300)
     return found
 
 
