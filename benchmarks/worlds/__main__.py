@@ -14,6 +14,7 @@ from collections.abc import Sequence
 
 from benchmarks.worlds.bakery import Bakery
 from benchmarks.worlds.coffee_bar import CoffeeBar
+from benchmarks.worlds.depot import Depot
 from benchmarks.worlds.harbour import Harbour
 from benchmarks.worlds.laboratory import Laboratory
 from benchmarks.worlds.laundry import Laundry
@@ -25,6 +26,8 @@ from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.symbols.describe import describe_operator
 
 DEVELOPED = {w.make.name: w for w in (CoffeeBar, Workshop, Laboratory, Warehouse, Laundry)}
+LARGE = {Depot.make.name: Depot}
+"""For measuring how long an iteration takes."""
 HELD_BACK = {w.make.name: w for w in (Bakery, Harbour)}
 """Only for the last measurement before results are reported."""
 
@@ -32,7 +35,7 @@ HELD_BACK = {w.make.name: w for w in (Bakery, Harbour)}
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print a line for each world, seed and style."""
     parser = argparse.ArgumentParser(description=__doc__)
-    worlds = {**DEVELOPED, **HELD_BACK}
+    worlds = {**DEVELOPED, **LARGE, **HELD_BACK}
     parser.add_argument("--world", nargs="+", choices=sorted(worlds), default=list(DEVELOPED))
     parser.add_argument("--seeds", nargs="+", type=int, default=[0])
     parser.add_argument("--style", nargs="+", choices=STYLES, default=[])

@@ -67,6 +67,7 @@ def _describe(learned: ArchivedIteration) -> dict[str, object]:
             for p in model.predicates
         ],
         "operators": [describe_operator(o, learned.untested(o)) for o in model.operators],
+        "open": {o.name: dict(learned.open_conditions(o)) for o in model.operators},
         "certificate": to_plain(learned.certificate),
         "decoding": to_plain(learned.decoding) if learned.decoding else None,
         "unresolved": [to_plain(cause) for cause in learned.unresolved],
@@ -100,6 +101,11 @@ def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:
     for operator in learned.model.operators:
         for line in describe_operator(operator, learned.untested(operator)).splitlines():
             console.print(f"  {line}")
+        for condition, chance in learned.open_conditions(operator):
+            console.print(
+                f"    open: {condition}, needed with probability {chance:.2f}; to be decided where "
+                f"{operator.skill} is tried and only this is not met"
+            )
         console.print("")
     _print_certificate(learned)
     _print_decoding(learned, pictures)

@@ -20,7 +20,7 @@ from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world.skills import SkillInstance
 
-_GROWTH = 1.5
+_GROWTH, _LATER = 1.5, 3.0
 _ALIKE = 4
 """So many pictures that look alike to the vocabulary are compared with one another."""
 
@@ -32,7 +32,9 @@ class UnnoticedChanges:
 
     After "nothing", a skill of which all successes seem to change nothing is asked about again, in
     another state and with other objects in view, which may be in its arguments or on them, as soon
-    as half as much again was executed. Of other skills, every change is asked about once.
+    as half as much again was executed. Of other skills, it is asked what else has changed, of any
+    object, for every change that they are known to make, and again when three times as much was
+    executed: a machine that comes to a halt may have been empty.
 
     Args:
         most: questions for each skill, those apart that were answered with nothing.
@@ -44,7 +46,8 @@ class UnnoticedChanges:
         self._asked: Counter[str] = Counter()
         self._next: dict[str, float] = {}
         self._shown: Counter[int] = Counter()
-        self._settled: set[tuple[object, ...]] = set()
+        self._again: dict[tuple[str, LiftedChange], float] = {}
+        self._settled: set[tuple[str, object, bool]] = set()
 
     def next(self, fit: Fit, recorded: RecordedTransitions) -> Inconsistency | None:
         """What to ask about next; None if there is nothing.
@@ -60,23 +63,27 @@ class UnnoticedChanges:
             name = of_skill.skill
             if self._asked[name] < self._most and executions >= self._next.get(name, 0):
                 is_wide = of_skill in silent and name in self._next
-                found = max(self._open(of_skill, again, is_wide), default=None)
+                left = self._open(of_skill, again, is_wide)
+                if of_skill not in silent:
+                    left = (x for x in left if executions >= self._again.get((name, x[3][1]), 0))
+                found = max(left, default=None)
                 if found is not None:
-                    example = found[3]
-                    is_wide = is_wide or (of_skill not in silent and not example[1])
-                    return _question(name, abs(found[2]), example, wide=is_wide)
+                    is_wide = is_wide or of_skill not in silent
+                    return _question(name, found[2], found[3], wide=is_wide)
         return None
 
     def note(self, asked: Inconsistency, executions: int, *, nothing: bool, silent: bool) -> None:
         """Take note of a question, and of whether it was answered with nothing."""
         self._shown[asked.culprit] += 1
-        if nothing and silent:
-            self._next[asked.skill] = _GROWTH * executions
-        else:
+        if not nothing:
             self._asked[asked.skill] += 1
-        if nothing or not silent:
-            (state,), change = asked.identity[2:]
-            self._settled.add((asked.skill, state, change, asked.wide))
+        elif silent:
+            self._next[asked.skill] = _GROWTH * executions
+        (state,), change = asked.identity[2:]
+        if not silent:
+            self._again[asked.skill, change] = _LATER * executions
+        elif nothing:
+            self._settled.add((asked.skill, state, asked.wide))
 
     def _open(
         self, of_skill: SkillFit, again: frozenset[int], wide: bool
@@ -95,9 +102,13 @@ class UnnoticedChanges:
                     number, state = int(table.ids[row]), table.before[row].tobytes()
                     example = (state, change) if silent else (b"", change)
                     changes = silent or table.change[row].any()
-                    if changes and (of_skill.skill, *example, wide) not in self._settled:
-                        order, first = number if silent else -number, number not in again
-                        yield -self._shown[number] * (not wide), first, order, example
+                    if changes and (of_skill.skill, example[0], wide) not in self._settled:
+                        yield (
+                            -self._shown[number] * (not wide),
+                            number not in again,
+                            number,
+                            example,
+                        )
 
 
 def _repetitions(recorded: RecordedTransitions) -> frozenset[int]:

@@ -102,6 +102,12 @@ class ArchivedIteration:
         """
         return self.summary.agreement.get(predicate.name)
 
+    def open_conditions(self, operator: Operator) -> list[tuple[str, float]]:
+        """What nothing recorded decides of an operator, with how likely it is needed."""
+        chances = self.summary.needed.get(operator.name, {})
+        open_ones = sorted(map(str, self.untested(operator)))
+        return [(name, chances[name]) for name in open_ones if name in chances]
+
     def untested(self, operator: Operator) -> frozenset[Condition]:
         """The conditions of an operator of which nothing recorded shows that they matter."""
         known = set(self.summary.untested.get(operator.name, ()))

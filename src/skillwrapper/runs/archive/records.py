@@ -156,10 +156,18 @@ class DecodingRecord(Record):
 
 
 class SummaryRecord(RunFigures):
-    """Figures at the end of an iteration."""
+    """Figures at the end of an iteration.
+
+    Attributes:
+        pairs_covered: share of the pairs of skill instances that were tried.
+        untested: for every operator the conditions that nothing has put to the test.
+        needed: for every operator how likely each of its conditions is needed.
+        agreement: for every predicate that was voted on the share of votes for the label.
+    """
 
     pairs_covered: Share
     untested: dict[str, tuple[str, ...]]
+    needed: dict[str, dict[str, Share]] = Field(default_factory=dict)
     agreement: dict[str, Share]
 
 

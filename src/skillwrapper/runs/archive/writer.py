@@ -6,14 +6,16 @@ what is there and written where it differs, so that a resumed run mends what was
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 from skillwrapper.exploration.explorer import SequenceChoice
 from skillwrapper.files.writing import json_text, write_atomically
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.untested import find_untested
+from skillwrapper.learning.version_space import VersionSpace, version_spaces
 from skillwrapper.perception.overruling import DecodingCertificate
 from skillwrapper.runs.archive.archive import RunArchive
 from skillwrapper.runs.archive.episode_files import EpisodeFile
@@ -153,8 +155,22 @@ def _summary(result: LearningResult) -> SummaryRecord:
         **result.figures.model_dump(),
         pairs_covered=result.pairs_covered,
         untested={name: tuple(sorted(map(str, found))) for name, found in untested.items()},
+        needed=_needed(result.fit),
         agreement={name: round(share, 4) for name, share in result.agreement.items()},
     )
+
+
+def _needed(fit: Fit) -> dict[str, dict[str, float]]:
+    """How likely each condition of every operator is needed, by the data alone."""
+    spaces = [space for skill in fit.skills for space in version_spaces(fit, skill)]
+    return {
+        space.operator.name: {name: round(chance, 4) for name, chance in sorted(_by_name(space))}
+        for space in spaces
+    }
+
+
+def _by_name(space: VersionSpace) -> Iterator[tuple[str, float]]:
+    return ((str(condition), chance) for condition, chance in space.probability.items())
 
 
 def _decoding(found: DecodingCertificate) -> DecodingRecord:
