@@ -38,3 +38,27 @@ def test_so_many_starts_may_be_misread() -> None:
     starts = ["full(a) left(a)", *(f"full(a) left(b) #{n}" for n in range(4))]
     assert judged(*starts, tolerance=0.1) == (LEFT,)
     assert judged(*starts, tolerance=0.2) == ()
+
+
+def around_failures(*pairs: tuple[str, str], still: bool = False) -> tuple[Predicate, ...]:
+    room = make_domain(types={"cup": ()}, objects={"a": "cup", "b": "cup"}, skills={"Take": "cup"},
+                       failures_change_nothing=still)  # fmt: skip
+    notebook = Notebook(room)
+    for before, after in pairs:
+        notebook.failure(before, "Take(b)", after)
+    return Steadiness(Labeller(notebook.recorded, notebook)).unsteady([FULL, LEFT])
+
+
+def test_what_changes_around_a_failure_that_changes_nothing_is_unsteady() -> None:
+    assert around_failures(("full(b) left(b)", "full(b)"), still=True) == (LEFT,)
+
+
+def test_what_often_changes_around_failures_elsewhere_is_unsteady() -> None:
+    flickers = [(f"full(b) #{n}", f"full(b) left(a) #{n}") for n in range(3)]
+    assert around_failures(*flickers) == (LEFT,)
+    assert around_failures(flickers[0]) == ()
+
+
+def test_what_failures_change_of_their_arguments_may_be_their_doing() -> None:
+    spills = [(f"full(b) #{n}", f"left(a) #{n}") for n in range(3)]
+    assert FULL not in around_failures(*spills)

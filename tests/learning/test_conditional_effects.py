@@ -149,3 +149,21 @@ def test_what_happens_to_all_of_them_needs_no_relation_among_the_changes() -> No
     ]
     assert not notebook.fit().inconsistencies
     assert not certify(notebook.fit()).violations
+
+
+def test_what_is_in_a_machine_is_changed_and_stays_in_it() -> None:
+    """Nothing of the argument changes, and the relation neither."""
+    domain = make_domain(
+        types={"washer": (), "shirt": ()},
+        objects={"w": "washer", "a": "shirt", "b": "shirt"},
+        skills={"Wash": "washer"},
+    )
+    inside, clean = Predicate("inside", ("shirt", "washer")), Predicate("clean", ("shirt",))
+    notebook = Notebook(domain, inside, clean)
+    notebook.success("inside(a, w)", "Wash(w)", "inside(a, w) clean(a)")
+    notebook.success("inside(b, w) clean(a)", "Wash(w)", "inside(b, w) clean(a) clean(b)")
+    notebook.success("", "Wash(w)", "#2")
+    fit = notebook.fit_skill("Wash")
+    effects = {str(e) for o in fit.operators for e in o.operator.conditional_effects}
+    assert any("inside(?each, ?washer_0)" in effect for effect in effects)
+    assert fit.inconsistencies == ()

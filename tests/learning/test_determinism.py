@@ -106,3 +106,45 @@ def test_without_need_there_are_none() -> None:
     (learned,) = notebook.fit_skill("Move").operators
     predicates = {p.atom.predicate for p in learned.operator.preconditions}
     assert predicates == {"chosen"}
+
+
+def test_types_that_never_work_together_split_a_cluster() -> None:
+    """Shirts hang on shelves and stones lie in baskets; one failure of another pair is no rule."""
+    domain = make_domain(
+        types={"thing": (), "shirt": ("thing",), "stone": ("thing",)}
+        | {"place": (), "basket": ("place",), "shelf": ("place",)},
+        objects={"shirt1": "shirt", "stone1": "stone", "b1": "basket", "s1": "shelf"},
+        skills={"Put": "thing place"},
+        failures_change_nothing=True,
+    )
+    notebook = Notebook(domain, Predicate("at", ("thing", "place")), WET)
+    notebook.success("", "Put(shirt1, s1)", "at(shirt1, s1)")
+    notebook.success("", "Put(stone1, b1)", "at(stone1, b1)")
+    notebook.failure("", "Put(shirt1, b1)")
+    assert len(notebook.fit_skill("Put").operators) == 1
+    for number in range(2):
+        notebook.failure(f"#{number}", "Put(shirt1, b1)")
+    fit = notebook.fit_skill("Put")
+    assert {o.operator.parameters[0].types for o in fit.operators} == {("shirt",), ("stone",)}
+    assert fit.inconsistencies == ()
+
+
+def test_a_place_is_empty_once_the_last_thing_is_taken() -> None:
+    """What stands around a context object tells the two outcomes apart."""
+    domain = make_domain(
+        types={"cup": (), "table": ()},
+        objects={"a": "cup", "b": "cup", "t": "table", "u": "table"},
+        skills={"Take": "cup"},
+    )
+    on, bare = Predicate("on", ("cup", "table")), Predicate("bare", ("table",))
+    notebook = Notebook(domain, on, bare)
+    for one, other in (("a", "b"), ("b", "a")):
+        for table, free in (("t", "u"), ("u", "t")):
+            both, rest = f"on({one}, {table}) on({other}, {table})", f"on({other}, {table})"
+            notebook.success(f"{both} bare({free})", f"Take({one})", f"{rest} bare({free})")
+            notebook.success(
+                f"{rest} bare({free})", f"Take({other})", f"bare({table}) bare({free})"
+            )
+    fit = notebook.fit_skill("Take")
+    assert len(fit.operators) == 2
+    assert fit.inconsistencies == ()

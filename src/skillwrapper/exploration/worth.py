@@ -46,7 +46,7 @@ class Weights:
     working: float = 0.5
     covered: float = 0.3
     covered_failing: float = 0.08
-    least_covered: float = 0.2
+    least_covered: float = 1.0
     witness: float = 0.8
     other_witness: float = 0.15
     fading: float = 0.75

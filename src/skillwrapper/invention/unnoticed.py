@@ -6,7 +6,7 @@ First come skills of which all successes seem to change nothing, then what else 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -45,7 +45,7 @@ class UnnoticedChanges:
         self._most, self._everywhere = most, everywhere
         self._asked: Counter[str] = Counter()
         self._next: dict[str, float] = {}
-        self._shown: Counter[int] = Counter()
+        self._shown: Counter[tuple[int, bool]] = Counter()
         self._again: dict[tuple[str, LiftedChange], float] = {}
         self._settled: set[tuple[str, object, bool]] = set()
 
@@ -56,14 +56,14 @@ class UnnoticedChanges:
             fit: what is learned.
             recorded: all transitions so far.
         """
-        executions, again = len(recorded), _repetitions(recorded)
+        executions, news = len(recorded), _news(recorded)
         silent = [of_skill for of_skill in fit.each() if of_skill.unnoticed is not None]
         others = [s for s in fit.each() if s not in silent] if self._everywhere else []
         for of_skill in (*silent, *others):
             name = of_skill.skill
             if self._asked[name] < self._most and executions >= self._next.get(name, 0):
                 is_wide = of_skill in silent and name in self._next
-                left = self._open(of_skill, again, is_wide)
+                left = self._open(of_skill, news, is_wide)
                 if of_skill not in silent:
                     left = (x for x in left if executions >= self._again.get((name, x[3][1]), 0))
                 found = max(left, default=None)
@@ -74,7 +74,7 @@ class UnnoticedChanges:
 
     def note(self, asked: Inconsistency, executions: int, *, nothing: bool, silent: bool) -> None:
         """Take note of a question, and of whether it was answered with nothing."""
-        self._shown[asked.culprit] += 1
+        self._shown[asked.culprit, asked.wide] += 1
         if not nothing:
             self._asked[asked.skill] += 1
         elif silent:
@@ -86,12 +86,12 @@ class UnnoticedChanges:
             self._settled.add((asked.skill, state, asked.wide))
 
     def _open(
-        self, of_skill: SkillFit, again: frozenset[int], wide: bool
-    ) -> Iterator[tuple[int, bool, int, _Key]]:
+        self, of_skill: SkillFit, news: Mapping[int, int], wide: bool
+    ) -> Iterator[tuple[int, int, int, _Key]]:
         """Successes that may be asked about, the best the largest.
 
-        How seldom one was shown, whether it was the first in its episode, its order, and what it
-        exemplifies. Where nothing seems to change, that is the state; else it is the change.
+        How seldom one was shown, how much was done since the same was last done, its number, and
+        what it exemplifies: the state if nothing seems to change, else the change.
         """
         silent = of_skill.unnoticed is not None
         for prediction in of_skill.predictions:
@@ -104,27 +104,31 @@ class UnnoticedChanges:
                     changes = silent or table.change[row].any()
                     if changes and (of_skill.skill, example[0], wide) not in self._settled:
                         yield (
-                            -self._shown[number] * (not wide),
-                            number not in again,
+                            -self._shown[number, wide],
+                            news[number],
                             number,
                             example,
                         )
 
 
-def _repetitions(recorded: RecordedTransitions) -> frozenset[int]:
-    """The numbers of successes of what had succeeded in the episode before."""
-    found: set[int] = set()
-    done: set[SkillInstance] = set()
-    seen = ""
+def _news(recorded: RecordedTransitions) -> dict[int, int]:
+    """For every success what had succeeded since the same was last done in the episode.
+
+    The more, the more there may be for it to change.
+    """
+    news: dict[int, int] = {}
+    last: dict[SkillInstance, int] = {}
+    successes, seen = 0, ""
     for number, record in enumerate(recorded.records):
         transition = record.transition
         if transition.before.key != seen:
-            done.clear()
+            last, successes = {}, 0
         seen = transition.after.key
         if transition.success:
-            found |= {number} if transition.instance in done else set()
-            done.add(transition.instance)
-    return frozenset(found)
+            successes += 1
+            news[number] = successes - last.get(transition.instance, 0)
+            last[transition.instance] = successes
+    return news
 
 
 def _question(skill: str, number: int, example: _Key, *, wide: bool) -> Inconsistency:
