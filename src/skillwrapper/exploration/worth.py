@@ -29,10 +29,8 @@ class Weights:
             was wrong of late.
         least_failing: the least of that product.
         working: newness where the model predicts a success, times the like entropy.
-        covered: a combination of roles that was never tried, where success is predicted, times
-            the entropy of how often such predictions were wrong of late.
+        covered: a combination of roles that was never tried, where success is predicted.
         covered_failing: the same where it is not.
-        least_covered: the least of that entropy.
         witness: an attempt like one that the model cannot explain.
         other_witness: an attempt at the same skill, as a share of that.
         fading: what is left of it after every time that it was gone after.
@@ -46,7 +44,6 @@ class Weights:
     working: float = 0.5
     covered: float = 0.3
     covered_failing: float = 0.08
-    least_covered: float = 1.0
     witness: float = 0.8
     other_witness: float = 0.15
     fading: float = 0.75
@@ -117,7 +114,6 @@ def weigh(
     )
     failing = max(weights.least_failing, weights.failing * float(entropy(failures)))
     working = weights.working * float(entropy(successes))
-    doubt = max(weights.least_covered, float(entropy(successes)))
     mix = 0.5 * expected.alone[of_node] + 0.5 * np.sqrt(expected.pairs[of_node])
     mix_done = 0.5 * expected.alone_done[of_node] + 0.5 * np.sqrt(expected.pairs_done[of_node])
     promise = _relative(expected, scene, unproven)
@@ -137,7 +133,7 @@ def weigh(
             new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], value))
         unseen = memory.new_signatures(instance.skill, lookahead.roles, places)
         each = np.where(sure[:, number], weights.covered, weights.covered_failing)
-        cover[:, number] = doubt * each * unseen
+        cover[:, number] = each * unseen
     return Worth(
         test=np.where(sure, 0.0, entropy(success) * np.sqrt(success)),
         new=new,
