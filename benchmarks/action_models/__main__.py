@@ -1,9 +1,10 @@
 """Learners of action models side by side, on all of AMLGym's domains, in one run.
 
     python -m benchmarks.action_models [--learners ours sam-nonneg ...] [--domains ...]
-        [--solve SECONDS] [--json] [--markdown FILE]
+        [--solve SECONDS] [--json] [--markdown FILE] [--keep FILE]
 
 Seconds are of the processor, each learner in this one process, reading the files included.
+``--keep`` writes rows as they come, and takes up what an interrupted run had measured.
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ import statistics
 import sys
 import tempfile
 import time
-import tracemalloc
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from benchmarks.action_models import gym
 from benchmarks.action_models.metrics import TestState, predictive_power
-from benchmarks.action_models.solving import solve
+from benchmarks.action_models.solving import Solver
 from benchmarks.action_models.table import markdown
 from skillwrapper.action_models.strips import Strips, read_strips
 
@@ -31,14 +32,16 @@ Row = dict[str, Any]
 def main() -> None:
     """Measure what the command line asks for, and print it."""
     given = _arguments()
-    rows: list[Row] = []
+    rows = _kept(given.keep)
     for domain in given.domains:
-        tests, true = list(gym.test_states(domain)), read_strips(gym.domain_path(domain))
-        reference = _solved(gym.domain_path(domain), domain, given.solve)
-        for learner in given.learners:
-            row = {"domain": domain, "learner": learner, **reference_of(reference)}
-            rows.append({**row, **_measure(learner, domain, true, tests, given.solve)})
-            print(_line(rows[-1]), file=sys.stderr, flush=True)
+        done = {row["learner"] for row in rows if row["domain"] == domain}
+        for row in _rows(domain, [x for x in given.learners if x not in done], given.solve):
+            rows.append(row)
+            print(_line(row), file=sys.stderr, flush=True)
+            if given.keep:
+                with given.keep.open("a") as file:
+                    file.write(json.dumps(row) + "\n")
+    rows = [r for r in rows if r["learner"] in given.learners and r["domain"] in given.domains]
     means = {learner: _means(rows, learner) for learner in given.learners}
     if given.json:
         print(json.dumps({"means": means, "rows": rows}, indent=2))
@@ -57,50 +60,48 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--solve", type=int, default=60, help="seconds a problem; 0 for none")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--markdown", type=Path)
+    parser.add_argument("--keep", type=Path, help="JSON lines, read and written")
     return parser.parse_args()
 
 
-def reference_of(solved: dict[str, float]) -> Row:
-    """How the true domain does, beside which a learned one stands."""
-    return {f"true_{key}": value for key, value in solved.items()}
+def _kept(path: Path | None) -> list[Row]:
+    if path is None or not path.exists():
+        return []
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+def _rows(domain: str, learners: Sequence[str], seconds: int) -> Iterator[Row]:
+    """What learners do on a domain, beside how its true model does."""
+    if not learners:
+        return
+    path = gym.domain_path(domain)
+    tests, true = list(gym.test_states(domain)), read_strips(path)
+    solver = Solver(path, gym.problem_paths(domain), seconds) if seconds else None
+    reference = {f"true_{key}": value for key, value in _solved(solver, path).items()}
+    for learner in learners:
+        row = {"domain": domain, "learner": learner, **reference}
+        try:
+            yield {**row, **_measure(learner, domain, true, tests, solver)}
+        except Exception as error:
+            yield {**row, "failed": f"{type(error).__name__}: {error}"}
 
 
 def _measure(
-    learner: str, domain: str, true: Strips, tests: Sequence[TestState], seconds: int
+    learner: str, domain: str, true: Strips, tests: Sequence[TestState], solver: Solver | None
 ) -> Row:
-    """One learner on one domain; a learner that fails has no figures but says why."""
     path, traces = gym.domain_path(domain), gym.trace_paths(domain)
     started = time.process_time()
-    try:
-        text = gym.learn(learner, path, traces)
-    except Exception as error:
-        return {"failed": f"{type(error).__name__}: {error}"}
+    text = gym.learn(learner, path, traces)
     spent = time.process_time() - started
     with tempfile.TemporaryDirectory() as folder:
         learned = Path(folder) / "domain.pddl"
         learned.write_text(text)
-        try:
-            power = predictive_power(read_strips(learned), true, tests)
-            return {**power, "seconds": spent, **_solved(learned, domain, seconds)}
-        except Exception as error:
-            return {"failed": f"{type(error).__name__}: {error}"}
+        power = predictive_power(read_strips(learned), true, tests)
+        return {**power, "seconds": spent, **_solved(solver, learned)}
 
 
-def _solved(learned: Path, domain: str, seconds: int) -> dict[str, float]:
-    if not seconds:
-        return {}
-    found = solve(learned, gym.domain_path(domain), gym.problem_paths(domain), seconds)
-    return {"solved": found.solved, "timed_out": found.timed_out}
-
-
-def memory(learner: str, domain: str) -> float:
-    """The most that a learner takes of Python's memory, in MB."""
-    tracemalloc.start()
-    try:
-        gym.learn(learner, gym.domain_path(domain), gym.trace_paths(domain))
-        return tracemalloc.get_traced_memory()[1] / 1e6
-    finally:
-        tracemalloc.stop()
+def _solved(solver: Solver | None, domain: Path) -> dict[str, float]:
+    return asdict(solver.solve(domain)) if solver else {}
 
 
 def _means(rows: Sequence[Row], learner: str) -> Row:
