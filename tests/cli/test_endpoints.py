@@ -92,7 +92,7 @@ def test_a_run_over_http_learns_the_same_and_keeps_no_key(
 ) -> None:
     learn(over(server, parallel=4), tmp_path / "run")
     assert model_of(tmp_path / "run") == direct
-    assert server.calls > 20
+    assert server.calls >= 10
     for path in (tmp_path / "run").rglob("*"):
         assert path.is_dir() or KEY.encode() not in path.read_bytes()
 

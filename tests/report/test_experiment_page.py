@@ -20,7 +20,8 @@ from skillwrapper.files.writing import write_json
 from skillwrapper.report import render_experiment
 from skillwrapper.report.experiment_contents import ExperimentContents
 
-CURVE = [{"executions": 30 * n, "recall": 0.3 * n, "precision": 1.0} for n in (1, 2, 3)]
+MODEL = {"precision": 1.0, "effect_accuracy": 1.0, "predicates": 4, "operators": 6}
+CURVE = [{"executions": 30 * n, "recall": 0.3 * n, **MODEL} for n in (1, 2, 3)]
 
 
 def result(problem: Problem, *, solved: bool) -> ProblemResult:

@@ -52,12 +52,13 @@ def made_up_cell(
         for number, (kind, done) in enumerate(zip(kinds, solved, strict=True))
     )
     exact = {"precision": 1.0, "recall": recall, "effect_accuracy": 1.0}
-    point = {"executions": 10, "recall": recall, "precision": 1.0}
+    size = {"predicates": 4, "operators": 6}
+    point = {"executions": 10, **exact, **size}
     efficiency = {"area": 0.25, "changing": 0.1, "pairs_covered": 0.2, "curve": [point]}
     return CellResult(
         cell=Cell(method, "burger", seed, noise),
         problems=problems,
-        exact=None if recall is None else {**exact, "predicates": 4, "operators": 6},
+        exact=None if recall is None else {**exact, **size},
         learning={"executions": 10} if learned else {},
         efficiency=efficiency if learned else None,
         seconds=9.0,
