@@ -1,6 +1,7 @@
 """Killing a command at every change that it makes to its files, and going on.
 
-Run: ``python -m benchmarks.kills [EVERY]`` (every change by default; 10 takes every tenth).
+Run: ``python -m benchmarks.kills [EVERY [COMMAND]]`` (every change of both commands by default; 10
+takes every tenth).
 
 ``learn`` and ``experiment run`` work on the greenhouse of ``examples/``. A first, whole run counts
 the changes: files opened for writing, synced, renamed and removed, folders made, model calls kept.
@@ -44,6 +45,7 @@ Command = Callable[[Path], object]
 """Works in a folder, which it makes."""
 
 _TIMES = re.compile(rb'"(?:time|seconds|[a-z_]*_seconds)": ?-?[\d.e+-]+')
+_CODE = re.compile(rb"^ *(?:commit|changed): .*$", re.MULTILINE)
 _OFTEN = frozenset({"runs.jsonl"})
 """Tell of every command, so also of the one that went on."""
 
@@ -147,7 +149,7 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 def _content(path: Path) -> bytes:
     if path.suffix != ".sqlite":
-        return _TIMES.sub(b"", path.read_bytes())
+        return _CODE.sub(b"", _TIMES.sub(b"", path.read_bytes()))
     connection = sqlite3.connect(path)
     try:
         kept = "key, status, role, iteration, system, prompt, pictures, reply, input_tokens"
@@ -267,9 +269,13 @@ def compare_in_greenhouse(folder: Path) -> None:
         raise RuntimeError(failed[0])
 
 
-def main(every: int = 1) -> None:
+COMMANDS = {"learn": learn_greenhouse, "experiment": compare_in_greenhouse}
+
+
+def main(every: int = 1, *names: str) -> None:
     """Print what is changed, what was killed, and what came of it."""
-    for name, command in (("learn", learn_greenhouse), ("experiment", compare_in_greenhouse)):
+    for name in names or COMMANDS:
+        command = COMMANDS[name]
         began = time.monotonic()
         with tempfile.TemporaryDirectory() as folder:
             command(Path(folder) / "first")  # what is computed once is then there for all
@@ -288,4 +294,4 @@ def main(every: int = 1) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1)
+    main(*map(int, sys.argv[1:2]), *sys.argv[2:])

@@ -51,6 +51,13 @@ def test_an_empty_folder_may_be_used(tmp_path: Path, domain: Domain) -> None:
     assert make_archive(tmp_path / "run", SETTINGS, domain).settings() == SETTINGS
 
 
+def test_what_a_kill_left_of_the_first_file_goes(tmp_path: Path, domain: Domain) -> None:
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / ".config.yaml.1.tmp").write_text("for")
+    made = make_archive(tmp_path / "run", SETTINGS, domain)
+    assert set(contents(made.path)) == {"config.yaml", "domain.yaml"}
+
+
 def test_the_same_settings_resume(archive: RunArchive, domain: Domain) -> None:
     before = contents(archive.path)
     more = SETTINGS.model_copy(update={"iterations": 50})

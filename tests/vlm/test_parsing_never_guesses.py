@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -152,3 +153,9 @@ def test_every_manner_is_read_where_nothing_else_is_said(
         headed(truth, "**{}:**"),
     ):
         assert parse_labels("\n".join(lines), ATOMS).labels == truth, "\n".join(lines)
+
+
+@pytest.mark.parametrize("supposing", ["Unless", "If", "Assuming", "When"])
+def test_what_follows_from_a_supposition_is_not_claimed(supposing: str) -> None:
+    reply = f"{supposing} {ATOMS[0]} is true, {ATOMS[1]}: false. {ATOMS[2]}: true"
+    assert parse_labels(reply, ATOMS).labels == {ATOMS[2]: True}

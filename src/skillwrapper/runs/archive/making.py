@@ -51,6 +51,7 @@ def make_archive(path: Path, settings: RunSettings, domain: Domain) -> RunArchiv
         raise RunFolderError(
             f"{path} is not empty and holds no run; choose another --out, nothing was changed"
         )
+    remove_leftovers(path)
     # First what makes the folder a run: one that was stopped right here can be resumed.
     _write_settings(layout, settings)
     write_atomically(layout.domain, domain_to_yaml(domain))

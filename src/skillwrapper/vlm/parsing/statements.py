@@ -15,6 +15,7 @@ from skillwrapper.vlm.parsing.verdicts import (
     Reading,
     Said,
     Verdict,
+    ends_sentence,
     is_link,
     is_nothing_but_verdict,
     is_supposed,
@@ -157,8 +158,10 @@ def _said_of_each(text: str, calls: Sequence[Call]) -> list[Reading]:
     if first_in_front and last_behind:
         return [Said.AMBIGUOUS] * len(calls)
     said: list[Reading] = []
+    supposed = False  # if S is true, T is false: neither is claimed
     for number, ((front, negated), behind) in enumerate(zip(fronts, behinds, strict=True)):
-        if linked[number] or linked[number + 1] or is_supposed(gaps[number]):
+        supposed = is_supposed(gaps[number]) or (supposed and not ends_sentence(gaps[number]))
+        if linked[number] or linked[number + 1] or supposed:
             said.append(Said.AMBIGUOUS)
         elif first_in_front:  # true: a(), b(), false: c()
             said.append(_joined(said[-1] if front is Said.NOTHING else front, negated))

@@ -49,14 +49,19 @@ Reading = Verdict | Said
 _TRUE = (
     "true yes holds hold correct satisfied affirmative fulfilled met case"
     " 真 是 对 成立 正确 正しい はい vrai oui wahr ja verdadero sí vero"
+    " да верно истина sim verdadeiro 예 네 참 evet doğru tak prawda waar sant sann ano pravda"
+    " نعم صحيح có đúng"
 )
 _FALSE = (
     "false no untrue incorrect unsatisfied wrong"
     " 假 否 错 错误 不成立 不正确 不是 偽 いいえ faux non falsch nein falso"
+    " нет неверно ложь não 아니요 아니오 거짓 hay\u0131r yanl\u0131ş nie fałsz nee onwaar falskt"
+    " nepravda خطأ خاطئ không sai"
 )
 _UNSURE = (
     "unsure unknown uncertain unclear undetermined indeterminate undecided ambiguous maybe possibly"
-    " perhaps none null n/a na undeterminable 不确定 未知 不明"
+    " perhaps none null n/a na undeterminable 不确定 未知 不明 неизвестно неясно"
+    " desconocido desconhecido inconnu unbekannt unklar unsicher"
 )
 _WORDS: dict[str, Verdict] = {
     **{word: Verdict(True) for word in _TRUE.split()},
@@ -73,7 +78,11 @@ _WORDS: dict[str, Verdict] = {
     "☑": Verdict(True, Family.BOX),
     "☐": Verdict(False, Family.BOX),
 }
-_ALONE = frozenset(words_of("yes no met hold right wrong none na ja non oui 是 否"))
+_ALONE = frozenset(
+    words_of(
+        "yes no met hold right wrong none na ja non oui 是 否 да нет sim tak nie nee sant sai có"
+    )
+)
 """Words that are verdicts only where they stand for themselves: "no item" is none."""
 _NOT = frozenset(words_of("not isn't isnt aren't doesn't doesnt don't never wasn't ain't ¬ 不"))
 _SMALL = frozenset(
@@ -122,6 +131,7 @@ _CHOICE = re.compile(
 _SEGMENT = re.compile(r"[,;:|()\[\]{}\"=]|(?:(?<= )|^)-{1,3}(?= |$)|-{0,2}>|[.!](?= |$)")
 _MARKS = "".join(word for word in _WORDS if not word.isalnum() and len(word) == 1)
 _WORD = re.compile(rf"n/a|[^\W_]++(?:['-][^\W_]++){{0,8}}|[{_MARKS}¬]", re.I)
+_SENTENCE_END = re.compile(r"[.;!?](?= |$)")
 _BOX = re.compile(r"\[ ?([xX✓✔]?) ?\]")
 _NOT_IN_FRONT = re.compile(r"(?:\bnot |[¬~]|(?:^|(?<=[ (]))!) ?\(?$", re.IGNORECASE)
 _LONGEST = 400
@@ -142,6 +152,11 @@ def is_supposed(text: str) -> bool:
     """Whether text in front of a statement makes it no claim: ``if S``."""
     words = text[-40:].casefold().split()[-4:]
     return not _SUPPOSED.isdisjoint(word.strip("(,:;\"'") for word in words)
+
+
+def ends_sentence(text: str) -> bool:
+    """Whether a sentence ends in the text between two statements."""
+    return _SENTENCE_END.search(text[-_LONGEST:]) is not None
 
 
 def is_link(text: str) -> bool:
