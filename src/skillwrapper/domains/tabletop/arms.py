@@ -27,6 +27,7 @@ class ArmKind:
         closed: value of the fingers when it is closed.
         stiffness: of each joint of the arm, in newton metres per radian, for physics.
         strength: largest torque of each joint, in newton metres.
+        joint: what its joints are called before their number, from 1.
     """
 
     arm: str
@@ -37,6 +38,7 @@ class ArmKind:
     closed: float
     stiffness: tuple[float, ...]
     strength: tuple[float, ...]
+    joint: str = "joint"
 
     @property
     def joints(self) -> int:
@@ -72,6 +74,7 @@ IIWA: Final = ArmKind(
     closed=0.7,
     stiffness=(4500, 4500, 3500, 3500, 2000, 2000, 2000),
     strength=(176, 176, 110, 110, 110, 40, 40),
+    joint="joint_",
 )
 
 

@@ -46,15 +46,14 @@ class Arm:
         self.rest: Joints = np.array(rest, float)
         self._model, self._data = model, mujoco().MjData(model)
         self.site = model.site(f"{name}_{GRIP}_grip_site").id
-        numbers = [model.joint(f"{name}_joint{k}").id for k in range(1, kind.joints + 1)]
+        own_joints = [f"{kind.joint}{k}" for k in range(1, kind.joints + 1)]
+        numbers = [model.joint(f"{name}_{joint}").id for joint in own_joints]
         self.addresses = np.array([model.jnt_qposadr[n] for n in numbers])
         self.velocities = np.array([model.jnt_dofadr[n] for n in numbers])
         self._low, self._high = (model.jnt_range[numbers] + [_MARGIN, -_MARGIN]).T
         fingers = [f"{name}_{GRIP}_{finger}" for finger in kind.finger_joints]
         self.fingers = np.array([model.jnt_qposadr[model.joint(f).id] for f in fingers])
-        self.servos = np.array(
-            [model.actuator(f"{name}_servo_joint{k}").id for k in range(1, kind.joints + 1)]
-        )
+        self.servos = np.array([model.actuator(f"{name}_servo_{joint}").id for joint in own_joints])
 
     def finger_values(self, opening: float) -> Vector:
         """Values of the fingers' joints (fingers,) for an opening between closed and opened."""
