@@ -18,9 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.action_models import gym
-from benchmarks.action_models.walks import Walker, as_text
+from benchmarks.action_models.walks import Walker
 from skillwrapper.action_models.learner import ActionModelLearner
 from skillwrapper.action_models.strips import read_strips
+from skillwrapper.action_models.trace_files import print_trace
 
 DOMAINS = ("blocksworld", "barman", "ferry", "npuzzle")
 SIZES = (100, 1000, 10_000)
@@ -58,7 +59,7 @@ def _write(domain: str, walks: int, folder: Path) -> list[Path]:
     paths = []
     for number in range(walks):
         paths.append(folder / f"{number}_traj")
-        paths[-1].write_text(as_text(list(walker.walk(number, STEPS))))
+        paths[-1].write_text(print_trace(list(walker.walk(number, STEPS))))
     return paths
 
 

@@ -63,18 +63,6 @@ class Walker:
         return action.name, tuple(c[int(self._chance.integers(len(c)))] for c in choices)
 
 
-def as_text(steps: list[Step]) -> str:
-    """A walk as AMLGym writes it."""
-
-    def state(atoms: State) -> str:
-        return f"(:state {' '.join(f'({atom})' for atom in sorted(atoms))})"
-
-    parts = [state(steps[0].before)]
-    for step in steps:
-        parts += [f"(:action ({' '.join((step.action, *step.arguments))}))", state(step.after)]
-    return "(:trajectory\n\n" + "\n\n".join(parts) + "\n\n)"
-
-
 def _initial(path: Path) -> State:
     for form in read_form(path.read_text(encoding="utf-8"), str(path)).forms:
         if form.head == ":init":

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from command_line import command
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planning_domains import FERRY, strips_of, walk
@@ -17,8 +17,7 @@ from skillwrapper.action_models.reading import read_steps
 from skillwrapper.action_models.skeleton_files import parse_skeleton, read_skeleton
 from skillwrapper.action_models.steps import Step
 from skillwrapper.action_models.strips import read_strips
-from skillwrapper.action_models.trace_files import parse_trace
-from skillwrapper.cli.main import main
+from skillwrapper.action_models.trace_files import parse_trace, print_trace
 from skillwrapper.errors import UserError
 
 TRACE = """(:trajectory
@@ -53,16 +52,6 @@ def _complaint(read: Callable[[], object]) -> str | None:
     return None
 
 
-def _in_parentheses(steps: list[Step]) -> str:
-    def state(atoms: frozenset[str]) -> str:
-        return f"(:state {' '.join(f'({atom})' for atom in sorted(atoms))})"
-
-    parts = [state(steps[0].before)]
-    for step in steps:
-        parts += [f"(:action ({' '.join((step.action, *step.arguments))}))", state(step.after)]
-    return "(:trajectory\n" + "\n".join(parts) + "\n)"
-
-
 def _as_json(step: Step) -> str:
     def atoms(state: frozenset[str]) -> list[str]:
         return [f"{a.split()[0]}({', '.join(a.split()[1:])})" for a in sorted(state)]
@@ -74,7 +63,7 @@ def _as_json(step: Step) -> str:
 def test_the_formats_say_the_same(tmp_path: Path) -> None:
     true = strips_of(FERRY, tmp_path)
     steps = list(walk(true, 30, seed=4, failures=False))
-    (tmp_path / "walk").write_text(_in_parentheses(steps).upper())
+    (tmp_path / "walk").write_text(print_trace(steps).upper())
     (tmp_path / "walk.jsonl").write_text("\n".join(map(_as_json, steps)))
     plain = [(s.action, s.arguments, s.before, s.after) for s in steps]
     for name in ("walk", "walk.jsonl"):
@@ -170,15 +159,10 @@ def test_as_an_algorithm_of_amlgym(tmp_path: Path) -> None:
     assert "(:action board" not in learned
 
 
-def test_on_the_command_line(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "walk").write_text(TRACE)
-    given = ["learn-operators", str(tmp_path / "walk"), "--domain", str(_domain(tmp_path))]
-    monkeypatch.setattr(sys, "argv", ["skillwrapper", *given, "--out", str(tmp_path / "out")])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert not ended.value.code
+    given = ("learn-operators", tmp_path / "walk", "--domain", _domain(tmp_path))
+    assert command(*given, "--out", tmp_path / "out") == 0
     said = capsys.readouterr().out
     assert "wait: 1 transitions, 1 preconditions, 1 effects" in said
     assert "board: never seen to work, left out" in said

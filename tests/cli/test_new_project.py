@@ -4,29 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from command_line import command
 
-from skillwrapper.cli.main import main
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.starting import start_project
 from skillwrapper.errors import ConfigurationError, UserError
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.world.domain_file import DomainFile
-
-
-def command(*words: str | Path) -> int:
-    before, sys.argv = sys.argv, ["skillwrapper", *map(str, words)]
-    try:
-        main()
-    except SystemExit as ended:
-        return int(ended.code or 0)
-    finally:
-        sys.argv = before
-    return 0
 
 
 @pytest.fixture

@@ -5,28 +5,14 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-from skillwrapper.cli.main import main
+from command_line import command
 
 WORLD = Path(__file__).parents[1] / "support" / "cup_world"
-
-
-def command(*words: str | Path) -> int:
-    """Run a command; its exit code."""
-    before, sys.argv = sys.argv, ["skillwrapper", *map(str, words)]
-    try:
-        main()
-    except SystemExit as ended:
-        return int(ended.code or 0)
-    finally:
-        sys.argv = before
-    return 0
 
 
 @pytest.fixture(scope="module")

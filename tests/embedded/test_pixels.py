@@ -46,11 +46,11 @@ def test_middle_is_where_most_was_counted() -> None:
 
 def test_pictures_of_another_size_are_scaled() -> None:
     png = encode_png(Image.new("RGB", (30, 20), (9, 8, 7)))
-    assert decode_pixels(png, 10).shape == (10, 10, 3)
-    assert decode_pixels(png, 10)[5, 5].tolist() == [9, 8, 7]
+    assert decode_pixels(png, 10, 10).shape == (10, 10, 3)
+    assert decode_pixels(png, 10, 10)[5, 5].tolist() == [9, 8, 7]
 
 
 @pytest.mark.parametrize("data", [b"", b"no picture"])
 def test_what_is_no_picture_is_refused(data: bytes) -> None:
     with pytest.raises(PictureError, match="expected the bytes of a picture"):
-        decode_pixels(data, 10)
+        decode_pixels(data, 10, 10)

@@ -8,7 +8,7 @@ from pathlib import Path
 from skillwrapper.action_models.skeleton import DomainSkeleton
 from skillwrapper.action_models.steps import State, Step, check_atoms, check_step
 from skillwrapper.errors import ConfigurationError, SymbolError
-from skillwrapper.files.json_documents import parse_record, read_text
+from skillwrapper.files.json_documents import read_entries
 from skillwrapper.symbols.predicates import parse_atom
 from skillwrapper.transitions.entries import TransitionEntry
 
@@ -25,14 +25,12 @@ def read_json_trace(path: Path, skeleton: DomainSkeleton) -> Iterator[Step]:
     Raises:
         UserError: if the file or a line cannot be used; names file and line.
     """
-    for number, line in enumerate(read_text(path).split("\n"), start=1):
-        if line.strip():
-            where = f"{path}:{number}"
-            step = _step(parse_record(line, TransitionEntry, where), where)
-            check_step(skeleton, step)
-            for state in (step.before, step.after):
-                check_atoms(skeleton, state, where)
-            yield step
+    for where, entry in read_entries(path, TransitionEntry):
+        step = _step(entry, where)
+        check_step(skeleton, step)
+        for state in (step.before, step.after):
+            check_atoms(skeleton, state, where)
+        yield step
 
 
 def _step(entry: TransitionEntry, where: str) -> Step:

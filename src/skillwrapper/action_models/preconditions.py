@@ -86,8 +86,8 @@ def _announced(
 ) -> Bits:
     """The literals that may be preconditions without a failure as their reason."""
     declared = settings.negatives == "declared"
-    negative = settings.negatives == "all" or (declared and views.has_negatives)
-    unequal = settings.negatives == "all" or (declared and views.has_equality)
+    negative = settings.negatives == "all" or (declared and views.skeleton.has_negatives)
+    unequal = settings.negatives == "all" or (declared and views.skeleton.has_equality)
 
     def is_announced(condition: Condition) -> bool:
         if condition.holds:

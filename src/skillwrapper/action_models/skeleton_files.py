@@ -29,7 +29,11 @@ def read_skeleton(path: Path) -> DomainSkeleton:
 
 def parse_skeleton(text: str, name: str) -> DomainSkeleton:
     """As ``read_skeleton``, from the text of a file of some name."""
-    form = read_form(text, name)
+    return skeleton_of(read_form(text, name))
+
+
+def skeleton_of(form: Form) -> DomainSkeleton:
+    """As ``read_skeleton``, from a file that is read already."""
     if form.head != "define":
         raise FileError(f"{form.where}: expected a PDDL domain, '(define (domain NAME) ...)'")
     return _Reader(form).skeleton()

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from skillwrapper.action_models.lisp import Form, read_form
 from skillwrapper.action_models.skeleton import DomainSkeleton, TypedName
-from skillwrapper.action_models.skeleton_files import read_pairs, read_skeleton
+from skillwrapper.action_models.skeleton_files import read_pairs, skeleton_of
 from skillwrapper.action_models.steps import State
+from skillwrapper.files.json_documents import read_text
 
 Literal = tuple[bool, tuple[str, ...]]
 """Whether it must hold, and the words of its atom."""
@@ -146,9 +147,10 @@ def _ground(words: tuple[str, ...], binding: Mapping[str, str]) -> str:
 
 def read_strips(path: Path) -> Strips:
     """Read a PDDL domain with its preconditions and effects."""
-    skeleton = read_skeleton(path)
+    domain = read_form(read_text(path), str(path))
+    skeleton = skeleton_of(domain)
     actions = {}
-    for form in read_form(path.read_text(encoding="utf-8"), str(path)).forms:
+    for form in domain.forms:
         if form.head == ":action":
             name = str(form.items[1])
             pairs = itertools.pairwise(form.items)
@@ -161,7 +163,7 @@ def read_strips(path: Path) -> Strips:
 
 def read_objects(path: Path) -> dict[str, str]:
     """The objects of a PDDL problem with their types."""
-    for form in read_form(path.read_text(encoding="utf-8"), str(path)).forms:
+    for form in read_form(read_text(path), str(path)).forms:
         if form.head == ":objects":
             return {name: types[0] for name, types in read_pairs(form, form.items[1:])}
     return {}

@@ -9,7 +9,7 @@ atoms in states, which say nothing new.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from skillwrapper.action_models.skeleton import DomainSkeleton
@@ -68,6 +68,19 @@ def parse_trace(
         raise FileError(f"{name}:1: expected states '(:state ...)', got none")
     if action is not None:
         raise FileError(f"{name}: expected a state after the last action")
+
+
+def print_trace(steps: Sequence[Step]) -> str:
+    """Steps as AMLGym writes a trace, each from where the one before ended; at least one."""
+    parts = [_print_state(steps[0].before)]
+    for step in steps:
+        action = f"(:action ({' '.join((step.action, *step.arguments))}))"
+        parts += [action, _print_state(step.after)]
+    return "(:trajectory\n\n" + "\n\n".join(parts) + "\n\n)"
+
+
+def _print_state(state: State) -> str:
+    return f"(:state {' '.join(f'({atom})' for atom in sorted(state))})"
 
 
 def _sections(text: str, name: str) -> Iterator[tuple[str, str, str]]:

@@ -70,36 +70,32 @@ class ActionViews:
         action: the action.
 
     Attributes:
+        skeleton: the domain.
         action: the action.
         atoms: the lifted atoms that views are about.
         steps: how many transitions were taken in.
         unexplained: how many of them changed something that is no atom over the arguments.
         pairs: the pairs of parameters, by number, that may stand for one object.
-        has_negatives: whether the domain announces negative preconditions.
-        has_equality: whether it announces that arguments may have to differ.
     """
 
     def __init__(self, skeleton: DomainSkeleton, action: Schema) -> None:
-        self.action = action
+        self.skeleton, self.action = skeleton, action
         self.atoms: tuple[LiftedAtom, ...] = tuple(skeleton.atoms_of(action))
         self.pairs = tuple(_pairs(skeleton, action))
         self.steps = 0
         self.unexplained = 0
-        self.has_negatives = skeleton.has_negatives
-        self.has_equality = skeleton.has_equality
         self._constants = frozenset(c.name for c in skeleton.constants)
         self._views: dict[tuple[bytes, bytes, bool, _Roles], None] = {}
         self._ground = lru_cache(_REMEMBERED)(self._ground_anew)
 
     def add(self, step: Step) -> None:
         """Take a transition in; its order among others does not matter."""
-        ground, roles = self._ground(step.arguments)
+        ground, within, roles = self._ground(step.arguments)
         before = bytes(map(step.before.__contains__, ground))
         after = before
         if step.success and step.after is not step.before:
             after = bytes(map(step.after.__contains__, ground))
-            if not _covers(step, ground):
-                self.unexplained += 1
+            self.unexplained += not (step.before ^ step.after) <= within
         self.steps += 1
         self._views[before, after, step.success, roles] = None
 
@@ -130,25 +126,22 @@ class ActionViews:
     def _names(self) -> tuple[str, ...]:
         return tuple(p.name for p in self.action.parameters)
 
-    def _ground_anew(self, arguments: tuple[str, ...]) -> tuple[tuple[str, ...], _Roles]:
-        """The ground atoms, and what stands for every argument."""
+    def _ground_anew(
+        self, arguments: tuple[str, ...]
+    ) -> tuple[tuple[str, ...], frozenset[str], _Roles]:
+        """The ground atoms, in order and as a set, and what stands for every argument."""
         binding = dict(zip(self._names, arguments, strict=True))
         roles = tuple(
             name if name in self._constants else self._names[arguments.index(name)]
             for name in arguments
         )
-        return tuple(atom.ground(binding) for atom in self.atoms), roles
+        ground = tuple(atom.ground(binding) for atom in self.atoms)
+        return ground, frozenset(ground), roles
 
     def _same(self, roles: _Roles) -> list[int]:
         names = dict(zip(self._names, roles, strict=True))
         first: dict[str, int] = {}
         return [first.setdefault(atom.ground(names), i) for i, atom in enumerate(self.atoms)]
-
-
-def _covers(step: Step, ground: tuple[str, ...]) -> bool:
-    """Whether all that changed is among some ground atoms."""
-    changed = step.before ^ step.after
-    return changed <= set(ground) if changed else True
 
 
 def _pairs(skeleton: DomainSkeleton, action: Schema) -> Iterator[tuple[int, int]]:

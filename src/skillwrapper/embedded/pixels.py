@@ -22,8 +22,8 @@ _BITS: Final = 5
 """Bits of each channel that the table of nearest colours tells apart."""
 
 
-def decode_pixels(png: bytes, size: int) -> Pixels:
-    """The pixels (size, size, 3) of an encoded picture; one of another size is scaled.
+def decode_pixels(png: bytes, width: int, height: int) -> Pixels:
+    """The pixels (height, width, 3) of an encoded picture; one of another size is scaled.
 
     Raises:
         PictureError: if it is no picture.
@@ -33,8 +33,8 @@ def decode_pixels(png: bytes, size: int) -> Pixels:
             picture = image.convert("RGB")
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
         raise PictureError("expected the bytes of a picture, got something else") from error
-    if picture.size != (size, size):
-        picture = picture.resize((size, size))
+    if picture.size != (width, height):
+        picture = picture.resize((width, height))
     return np.asarray(picture)
 
 

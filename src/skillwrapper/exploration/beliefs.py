@@ -55,11 +55,8 @@ class SkillBeliefs:
         self.spaces: tuple[VersionSpace, ...] = version_spaces(fit, skill, doubt=doubt)
         self._failures = self._seen(success=False)
         self._successes = self._seen(success=True)
-        self._kinds = [
-            (table.argument_types(row), bool(table.success[row]))
-            for table in (p.table for p in self.of_skill.predictions)
-            for row in range(len(table))
-        ]
+        self._worked = frozenset(self._kinds(success=True))
+        self._failed = self._kinds(success=False)
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
 
     def expect(
@@ -116,13 +113,21 @@ class SkillBeliefs:
             tuple(space.objects[n].types for n in arguments)
             for arguments in attempts.arguments.tolist()
         ]
-        failed = [kind for kind, success in self._kinds if not success]
         for kind in dict.fromkeys(kinds):
-            if (kind, True) not in self._kinds:
+            if kind not in self._worked:
                 own = np.array([k == kind for k in kinds], dtype=bool)[attempts.which]
-                rows = [n for n, k in enumerate(failed) if k == kind]
+                rows = [n for n, k in enumerate(self._failed) if k == kind]
                 found[own] = promise_of(seen[own], self._failures[rows])
         return found
+
+    def _kinds(self, *, success: bool) -> list[tuple[tuple[str, ...], ...]]:
+        """The types of the arguments of earlier attempts (attempts,), in the order of ``_seen``."""
+        tables = [prediction.table for prediction in self.of_skill.predictions]
+        return [
+            table.argument_types(row)
+            for table in tables
+            for row in np.flatnonzero(table.success == success).tolist()
+        ]
 
     def _seen(self, *, success: bool) -> Features:
         """What earlier attempts saw (attempts, features)."""

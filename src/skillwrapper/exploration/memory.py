@@ -62,7 +62,6 @@ class Memory:
         seen: the signatures that were tried, by skill.
         surprises: how often predictions were wrong.
         pursued: how often a cause was gone after, by skill and signature.
-        pursued_in_all: the same, by skill alone.
         failures: how often instances failed, and skills, also with the types of their arguments.
         proven: the skills, with the types of their arguments, that ever succeeded.
         missed: how often the way to an attempt led elsewhere, since it was last made.
@@ -84,7 +83,6 @@ class Memory:
         self.seen: dict[str, set[Signature]] = defaultdict(set)
         self.surprises = Surprises()
         self.pursued: Counter[tuple[str, Signature]] = Counter()
-        self.pursued_in_all: Counter[str] = Counter()
         self.missed: Counter[SkillInstance] = Counter()
 
     def scene(self, scene: Scene) -> SceneRoles:
@@ -163,7 +161,10 @@ class Memory:
         found = {(cause.skill, self.signatures[cause.culprit]) for cause in causes}
         if (instance.skill, signature) in found:
             self.pursued[instance.skill, signature] += 1
-            self.pursued_in_all[instance.skill] += 1
+
+    def pursued_in_all(self, skill: str) -> int:
+        """How often any cause of a skill was gone after."""
+        return sum(times for (name, _), times in self.pursued.items() if name == skill)
 
     def was_tried(self, observation: str, state: bytes, instance: SkillInstance) -> bool:
         """Whether to run an instance would only repeat what is known.

@@ -172,7 +172,7 @@ def _witnesses(
     for cause in causes:
         signature = memory.signatures[cause.culprit]
         worth = weights.witness * weights.fading ** memory.pursued[cause.skill, signature]
-        worth *= weights.slow_fading ** memory.pursued_in_all[cause.skill]
+        worth *= weights.slow_fading ** memory.pursued_in_all(cause.skill)
         for number, instance in enumerate(scene.instances):
             if instance.skill == cause.skill:
                 roles = lookahead.roles[:, scene.places[number]]

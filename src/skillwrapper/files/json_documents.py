@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -68,6 +69,21 @@ def read_records(
     """
     lines = enumerate(whole_lines(path)[first - 1 : last], start=first)
     return [parse_record(line, model, f"{path}:{number}") for number, line in lines]
+
+
+def read_entries(path: Path, model: type[Model]) -> Iterator[tuple[str, Model]]:
+    """The lines of a file of JSON lines that people write, each with its place, ``FILE:LINE``.
+
+    Empty lines do not count; unlike ``read_records``, the file must be there, and its last line
+    need not end.
+
+    Raises:
+        FileError: if it cannot be read, or a line is something else; names the file and the line.
+    """
+    for number, line in enumerate(read_text(path).split("\n"), start=1):
+        if line.strip():
+            where = f"{path}:{number}"
+            yield where, parse_record(line, model, where)
 
 
 def parse_record(line: str | bytes, model: type[Model], where: str) -> Model:

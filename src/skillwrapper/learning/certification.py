@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from skillwrapper.grounding import FALSE
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.lifted_states import LiftedState, is_lifted_state_known, lifted_state
-from skillwrapper.learning.no_ops import NoOps, find_no_ops, is_no_op
+from skillwrapper.learning.no_ops import NoOps, find_no_ops, is_no_op, rows_that_tell
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.transitions.lifting import LiftedChange
 
@@ -124,10 +124,8 @@ def _lifted_changes(
 ) -> Iterator[tuple[int, LiftedChange]]:
     table = prediction.table
     for group in table.successes if success else table.failures:
-        strange = bool(group.lifting.unexplained) and not group.lifting.change  # D5
-        for row in group.rows:
-            if not no_ops[table][row] and not (strange and prediction.accounted[row]):
-                yield int(table.ids[row]), group.lifting.change
+        for row in rows_that_tell(prediction, group, no_ops):
+            yield int(table.ids[row]), group.lifting.change
 
 
 def _check_theorem(skill: str, prediction: TablePrediction, no_ops: NoOps) -> Iterator[Violation]:

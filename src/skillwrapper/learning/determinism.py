@@ -14,7 +14,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from skillwrapper.grounding import TRUE
 from skillwrapper.learning.clusters import Cluster, cluster_successes
 from skillwrapper.learning.conditional_effects import (
     cluster_by_core,
@@ -118,16 +117,14 @@ def _refuted(predictor: Predictor, learned: LearnedOperator) -> set[tuple[tuple[
     failed: Counter[tuple[tuple[str, ...], ...]] = Counter()
     for prediction in predictor.predict([learned]):
         table = prediction.table
-        for row in np.flatnonzero(~table.success & (prediction.executable == TRUE)).tolist():
+        for row in np.flatnonzero(prediction.disproved).tolist():
             failed[table.argument_types(row)] += 1
     return {types for types, times in failed.items() if times >= _OFTEN}
 
 
 def _failures(predictor: Predictor, operators: Sequence[LearnedOperator]) -> int:
     """How many failures are predicted to work."""
-    return sum(
-        int((~p.table.success & (p.executable == TRUE)).sum()) for p in predictor.predict(operators)
-    )
+    return sum(int(p.disproved.sum()) for p in predictor.predict(operators))
 
 
 def _variants(cluster: Cluster) -> Iterator[tuple[tuple[Cluster, ...], bool]]:
@@ -153,9 +150,5 @@ def _mistakes(predictor: Predictor, operators: Sequence[LearnedOperator]) -> int
 
 def _cost(predictor: Predictor, operators: Sequence[LearnedOperator]) -> tuple[int, int]:
     """Smaller is better: transitions that are predicted wrongly, then the number of operators."""
-    wrong = 0
-    for prediction in predictor.predict(operators):
-        success = prediction.table.success
-        mistaken = np.where(success, ~prediction.accounted, prediction.executable == TRUE)
-        wrong += int(((mistaken & ~prediction.undecided) | prediction.mistaken).sum())
+    wrong = sum(int(p.wrong.sum()) for p in predictor.predict(operators))
     return wrong, len(operators)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from skillwrapper.grounding import TRUE, UNKNOWN
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
-from skillwrapper.learning.no_ops import find_no_ops
+from skillwrapper.learning.no_ops import find_no_ops, rows_that_tell
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import TablePrediction
 from skillwrapper.symbols import Atom
@@ -241,18 +241,13 @@ def _changes_of_successes(
 ) -> dict[LiftedChange, list[int]]:
     """The lifted changes that successes made, with the numbers of the transitions.
 
-    Not those of the clusters: from these, conditional effects are left out (D5). A success that
-    changed nothing does not count (D7), nor one that only changed what conditional effects change.
+    Not those of the clusters: from these, conditional effects are left out (D5).
     """
     found: dict[LiftedChange, list[int]] = {}
     no_ops = find_no_ops(p.table for p in predictions)
     for prediction in predictions:
-        table = prediction.table
         for group in prediction.table.successes:
-            counts = ~no_ops[table][group.rows]
-            if group.lifting.unexplained and not group.lifting.change:
-                counts &= ~prediction.accounted[group.rows]
-            visible = table.ids[group.rows[counts]]
+            visible = prediction.table.ids[rows_that_tell(prediction, group, no_ops)]
             if len(visible):
                 found.setdefault(group.lifting.change, []).extend(map(int, visible))
     return found

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.learning.clusters import Cluster
-from skillwrapper.transitions.tables import SkillTable
+from skillwrapper.learning.predictions import TablePrediction
+from skillwrapper.transitions.tables import Group, SkillTable
 
 NoOps = dict[SkillTable, NDArray[np.bool_]]
 """For every table whether a transition (n,) is a success that changed nothing."""
@@ -27,6 +28,18 @@ def find_no_ops(tables: Iterable[SkillTable]) -> NoOps:
     if any(rows.any() for rows in moved.values()):
         return {t: t.success & (t.unchanged | still[t]) for t in data}
     return {t: t.success & t.unchanged for t in data}
+
+
+def rows_that_tell(prediction: TablePrediction, group: Group, no_ops: NoOps) -> NDArray[np.intp]:
+    """The rows of a group that are evidence of its lifted change.
+
+    Not those that changed nothing (D7), nor those that only changed what conditional effects
+    account for (D5).
+    """
+    told = ~no_ops[prediction.table][group.rows]
+    if group.lifting.unexplained and not group.lifting.change:
+        told &= ~prediction.accounted[group.rows]
+    return group.rows[told]
 
 
 def is_no_op(cluster: Cluster, no_ops: NoOps) -> bool:

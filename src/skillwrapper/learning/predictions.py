@@ -162,6 +162,19 @@ class TablePrediction:
             mistaken[found.mispredicted] = True
         return mistaken
 
+    @cached_property
+    def disproved(self) -> NDArray[np.bool_]:
+        """Whether some operator surely applies to a failure (n,)."""
+        disproved: NDArray[np.bool_] = ~self.table.success & (self.executable == TRUE)
+        return disproved
+
+    @cached_property
+    def wrong(self) -> NDArray[np.bool_]:
+        """Whether a decided outcome or a change is predicted wrongly (n,)."""
+        missed = self.table.success & ~self.accounted
+        wrong: NDArray[np.bool_] = ((missed | self.disproved) & ~self.undecided) | self.mistaken
+        return wrong
+
 
 class Predictor:
     """Applies operators to the transitions of a skill, each operator only once.

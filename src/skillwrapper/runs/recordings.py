@@ -21,7 +21,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import FileError, RunFolderError, UserError
-from skillwrapper.files.json_documents import parse_record, read_text
+from skillwrapper.files.json_documents import parse_record, read_entries, read_text
 from skillwrapper.files.writing import explained
 from skillwrapper.runs.archive import EpisodeFile, make_archive
 from skillwrapper.runs.episodes import EpisodeSoFar
@@ -190,10 +190,8 @@ def _rows(path: Path) -> Iterator[_Place]:
         case ".csv":
             yield from _csv_rows(path)
         case ".jsonl":
-            for number, line in enumerate(read_text(path).splitlines(), start=1):
-                if line.strip():
-                    where = f"{path}:{number}"
-                    yield _Place(parse_record(line, RecordedRow, where), where)
+            for where, row in read_entries(path, RecordedRow):
+                yield _Place(row, where)
         case _:
             raise FileError(f"{path}: expected a file .csv or .jsonl; its name says neither")
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from skillwrapper.errors import FileError
-from skillwrapper.files.json_documents import parse_record, read_text
+from skillwrapper.files.json_documents import read_entries
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.entries import PlacedEntry, TransitionEntry, label_placed_entries
 from skillwrapper.transitions.labelled import LabelledTransitions
@@ -26,11 +26,7 @@ def read_transitions(
     Raises:
         UserError: if the file cannot be read or a line cannot be used; names file and line.
     """
-    entries = [
-        PlacedEntry(f"{path}:{number}", parse_record(line, TransitionEntry, f"{path}:{number}"))
-        for number, line in enumerate(read_text(path).split("\n"), start=1)
-        if line.strip()
-    ]
+    entries = [PlacedEntry(where, entry) for where, entry in read_entries(path, TransitionEntry)]
     if not entries:
         raise FileError(f"{path}: expected a transition a line, got none")
     return label_placed_entries(domain, entries, predicates)

@@ -99,7 +99,7 @@ def read_burger_scene(png: bytes) -> SceneGraph:
     Raises:
         PictureError: if it is no picture, or shows no burger kitchen.
     """
-    pixels = _in_good_light(decode_pixels(png, _SIZE)[::_STEP, ::_STEP])
+    pixels = _in_good_light(decode_pixels(png, _SIZE, _SIZE)[::_STEP, ::_STEP])
     raster = _colour_table().raster(pixels, _BLOCK)
     places = _find_places(raster)
     seen = [item for name in _ITEMS if (item := _find_item(raster, name)) is not None]

@@ -6,14 +6,12 @@ does, and nothing of the simulator's state.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
 import numpy as np
-from PIL import Image, UnidentifiedImageError
 
 from skillwrapper.domains.panda.cameras import CAMERAS, HEIGHT, WIDTH
 from skillwrapper.domains.panda.colours import (
@@ -21,11 +19,11 @@ from skillwrapper.domains.panda.colours import (
     PORCELAIN,
     WOOD,
     Mask,
-    Pixels,
     materials,
 )
 from skillwrapper.domains.panda.states import BOWL, MUG, PICKUPABLE, PLATE, ROBOT, SPONGE, TEAPOT
 from skillwrapper.domains.panda.table_map import around, best_disc, camera_of, seen_from_above
+from skillwrapper.embedded.pixels import decode_pixels
 from skillwrapper.embedded.scene_graph import Box, SceneGraph, Thing
 from skillwrapper.errors import PictureError
 
@@ -80,7 +78,7 @@ def read_panda_scene(png: bytes) -> SceneGraph:
     Raises:
         PictureError: if it is no picture, or shows no such table.
     """
-    seen = materials(_decode(png))
+    seen = materials(decode_pixels(png, WIDTH, HEIGHT))
     camera = camera_of(seen[WOOD])
     if camera is None:
         raise PictureError("expected a picture of the table with the arm, found no such table")
@@ -107,17 +105,6 @@ def read_panda_scene(png: bytes) -> SceneGraph:
         relations={name: frozenset(pairs) for name, pairs in relations.items()},
         attributes=attributes,
     )
-
-
-def _decode(png: bytes) -> Pixels:
-    try:
-        with Image.open(io.BytesIO(png)) as image:
-            picture = image.convert("RGB")
-    except (UnidentifiedImageError, OSError, SyntaxError, ValueError) as error:
-        raise PictureError("expected the bytes of a picture, got something else") from error
-    if picture.size != (WIDTH, HEIGHT):
-        picture = picture.resize((WIDTH, HEIGHT))
-    return np.asarray(picture)
 
 
 def _find_plate(view: _View) -> tuple[float, float] | None:

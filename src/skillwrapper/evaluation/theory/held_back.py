@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from skillwrapper.errors import RunFolderError
 from skillwrapper.evaluation.theory.intervals import clopper_pearson
-from skillwrapper.grounding import TRUE
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.learner import make_learner
 from skillwrapper.learning.predictions import predict
 from skillwrapper.learning.settings import LearnerSettings
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.archive.labels import RecordedLabels
-from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.entries import label_entries
 from skillwrapper.transitions.labelled import LabelledTransitions
-from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Episode
 
 _LEAST_EPISODES = 2
@@ -63,27 +57,17 @@ def held_back_error(archive: RunArchive, confidence: float = 0.95) -> HeldBackEr
     latest, episodes = archive.latest(), archive.episodes()
     if len(episodes) < _LEAST_EPISODES:
         raise RunFolderError(f"{archive.path}: expected two episodes or more, got {len(episodes)}")
-    domain, words, labels = archive.domain(), latest.model.predicates, latest.labels
-    learner = make_learner(archive.settings().learning)
+    domain, words, settings = archive.domain(), latest.model.predicates, archive.settings().learning
+    entries = [_entries(episode, latest.labels) for episode in episodes]
+    learner = make_learner(settings)
     wrong = tried = undecided = 0
-    for held in range(len(episodes)):
-        others = [e for number, e in enumerate(episodes) if number != held]
-        fit = learner.learn(_label(domain, others, labels, words))
-        data = _label(domain, [episodes[held]], labels, words)
-        found = _compare(fit, data, archive.settings().learning)
+    for held, own in enumerate(entries):
+        others = [e for number, some in enumerate(entries) if number != held for e in some]
+        fit = learner.learn(label_entries(domain, others, words))
+        found = _compare(fit, label_entries(domain, own, words), settings)
         wrong, tried, undecided = wrong + found[0], tried + found[1], undecided + found[2]
     interval = clopper_pearson(wrong, tried, confidence) if tried else (0.0, 1.0)
     return HeldBackError(wrong, tried, undecided, confidence, interval)
-
-
-def _label(
-    domain: Domain,
-    episodes: Sequence[Episode],
-    labels: RecordedLabels,
-    predicates: Sequence[Predicate],
-) -> LabelledTransitions:
-    entries = (entry for episode in episodes for entry in _entries(episode, labels))
-    return label_entries(domain, entries, predicates)
 
 
 def _entries(episode: Episode, labels: RecordedLabels) -> list[dict[str, Any]]:
@@ -109,9 +93,7 @@ def _compare(
     decided = data.decided(settings.least_confidence)
     for skill in data.domain.skills:
         for found in predict(decided.of_skill(skill.name), fit.skill(skill.name).operators):
-            success = found.table.success
-            missed = np.where(success, ~found.accounted, found.executable == TRUE) | found.mistaken
-            wrong += int((missed & ~found.undecided).sum())
+            wrong += int((found.wrong & ~found.undecided).sum())
             tried += int((~found.undecided).sum())
             undecided += int(found.undecided.sum())
     return wrong, tried, undecided
