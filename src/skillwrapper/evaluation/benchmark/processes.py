@@ -80,7 +80,9 @@ class Processes:
         latest = time.monotonic() + _GRACE
         for child in children:
             child.join(max(0.0, latest - time.monotonic()))
+        for child in children:
             child.kill()
+            child.join()
 
     def _submit(self, cell: Cell) -> Future[CellOutcome]:
         return self._pool.submit(_in_order, self._task, self._path, cell)
