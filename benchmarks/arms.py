@@ -115,7 +115,7 @@ def _outcome(
 ) -> tuple[bool, PandaState]:
     table.set_state(state, seed=seed)
     outcome = table.execute(instance)
-    if not np.isfinite(table._table.world.data.qpos).all():
+    if not np.isfinite(table.table.world.data.qpos).all():
         raise SystemExit(f"the simulation blew up: {instance} in {state}, seed {seed}")
     return outcome.success, table.get_state()
 

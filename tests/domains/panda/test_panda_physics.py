@@ -70,7 +70,7 @@ def test_what_is_seen_in_a_wrong_place_is_missed() -> None:
 def test_a_teapot_tilted_beside_the_mug_does_not_fill_it(careful: Unseen) -> None:
     careful.reset(seed=3)
     careful.set_state(PandaState(held="teapot"), seed=3)
-    careful._skills._pouring_grips = lambda: _beside(careful._table)  # type: ignore[method-assign]
+    careful.skills._pouring_grips = lambda: _beside(careful.table)  # type: ignore[method-assign]
     outcome = careful.execute(parse_skill_instance("Pour(robot, teapot, mug)"))
     assert (outcome.success, careful.get_state().full) == (False, False)
 

@@ -8,8 +8,6 @@ from typing import Final
 
 from skillwrapper.domains.tabletop.cameras import Camera
 
-WIDTH, HEIGHT = 640, 480
-"""Of pictures, in pixels."""
 FRONT, SIDE, FAR = "front", "side", "far"
 
 CAMERAS: Final[Mapping[str, Camera]] = MappingProxyType(

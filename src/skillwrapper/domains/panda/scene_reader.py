@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from skillwrapper.domains.panda.cameras import CAMERAS, HEIGHT, WIDTH
+from skillwrapper.domains.panda.cameras import CAMERAS
 from skillwrapper.domains.panda.colours import (
     BROWN,
     PORCELAIN,
@@ -23,6 +23,7 @@ from skillwrapper.domains.panda.colours import (
 )
 from skillwrapper.domains.panda.states import BOWL, MUG, PICKUPABLE, PLATE, ROBOT, SPONGE, TEAPOT
 from skillwrapper.domains.panda.table_map import around, best_disc, camera_of, seen_from_above
+from skillwrapper.domains.tabletop.cameras import HEIGHT, WIDTH
 from skillwrapper.embedded.pixels import decode_pixels
 from skillwrapper.embedded.scene_graph import Box, SceneGraph, Thing
 from skillwrapper.errors import PictureError

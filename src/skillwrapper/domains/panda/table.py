@@ -8,7 +8,6 @@ from typing import Any, Final
 import numpy as np
 
 from skillwrapper.domains.panda.cameras import CAMERAS
-from skillwrapper.domains.panda.layout import Layout
 from skillwrapper.domains.panda.objects import (
     ADD,
     HANDLING,
@@ -22,6 +21,7 @@ from skillwrapper.domains.panda.objects import (
 )
 from skillwrapper.domains.panda.states import BOWL, PICKUPABLE, PLATE, THINGS, PandaState
 from skillwrapper.domains.tabletop.arms import PANDA, add_arm, weld
+from skillwrapper.domains.tabletop.layout import Layout
 from skillwrapper.domains.tabletop.poses import Pose, Vector, grip_down
 from skillwrapper.domains.tabletop.stage import DAYLIGHT, Lighting, new_stage
 from skillwrapper.domains.tabletop.world import ArmSetup, Held, TableWorld
@@ -30,6 +30,8 @@ ARM: Final = "arm"
 _HOME: Final = (0.0, -0.75, 0.0, -2.45, 0.0, 1.75, 0.785)
 HOME_GRIP: Final = Pose(np.array([0.36, 0.0, 0.36]), grip_down(0.0))
 """Where the gripper waits."""
+_PUT_BACK: Final = 0.06
+"""A thing that was pushed no farther than this may stay there, in metres."""
 _LEFT_DIRTY: Final = 0.25
 """A plate with a larger share of its residue than this is dirty."""
 
@@ -138,6 +140,14 @@ class PandaTable:
         offset = pose.position - start.position
         near = np.hypot(*offset[:2]) < tolerance and abs(offset[2]) < 0.01
         return bool(near and _is_upright(pose))
+
+    def displaced(self) -> str | None:
+        """A thing that neither is held nor on the plate and is not where it belongs."""
+        for thing in PICKUPABLE:
+            loose = thing in self.layout and self.world.holder(thing) is None
+            if loose and not self.is_stacked(thing) and not self.is_in_place(thing, _PUT_BACK):
+                return f"the {thing} is not where it belongs"
+        return None
 
     def residue_place(self, number: int) -> Vector:
         """Where a spot of food is on the plate (3,)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -28,6 +29,8 @@ class ArmKind:
         stiffness: of each joint of the arm, in newton metres per radian, for physics.
         strength: largest torque of each joint, in newton metres.
         joint: what its joints are called before their number, from 1.
+        turn: of the gripper's site around z that brings y across the fingers, in radians.
+        scattered: whether inverse kinematics also starts from joints around the rest.
     """
 
     arm: str
@@ -39,6 +42,8 @@ class ArmKind:
     stiffness: tuple[float, ...]
     strength: tuple[float, ...]
     joint: str = "joint"
+    turn: float = 0.0
+    scattered: bool = False
 
     @property
     def joints(self) -> int:
@@ -75,6 +80,8 @@ IIWA: Final = ArmKind(
     stiffness=(4500, 4500, 3500, 3500, 2000, 2000, 2000),
     strength=(176, 176, 110, 110, 110, 40, 40),
     joint="joint_",
+    turn=math.pi / 2,
+    scattered=True,
 )
 
 

@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from skillwrapper.domains.tabletop.poses import Matrix, Vector
 
 Floats = NDArray[np.float64]
+WIDTH, HEIGHT = 640, 480
+"""Of the pictures that environments take, in pixels."""
 _UP = np.array([0.0, 0.0, 1.0])
 
 

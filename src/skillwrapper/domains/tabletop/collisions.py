@@ -55,7 +55,7 @@ class Clearance:
         world = self._world
         self.data_with(arm, joints)
         mujoco().mj_collision(world.model, self._data)
-        own = {arm, world.held[arm].thing} if arm in world.held else {arm}
+        own = {arm, *world.carried(arm)}
         contact = self._data.contact
         for geoms in contact.geom[contact.dist < -_TOLERANCE]:
             first, second = (self._owners[g] for g in geoms)

@@ -10,13 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from skillwrapper.domains.tabletop.arms import GRIP, ArmKind
 from skillwrapper.domains.tabletop.extra import mujoco
-from skillwrapper.domains.tabletop.poses import Pose, Vector
+from skillwrapper.domains.tabletop.poses import Pose, Vector, turn_z
 
 Joints = NDArray[np.float64]
 _TOLERANCE: Final = 5e-4, 5e-3
 """Of place, in metres, and of direction, in radians."""
 _STEPS: Final = 150
 _DAMPING: Final = 0.05
+_OTHERS: Final = 24
+_SCATTER: Final = 1.2
+"""Starts around the rest, in radians; the way from one start may end at a joint's limit."""
 _PULL_TO_REST: Final = 0.05
 _LONGEST_STEP: Final = 0.3
 _MARGIN: Final = 0.01
@@ -45,6 +48,9 @@ class Arm:
         self.name, self.kind = name, kind
         self.rest: Joints = np.array(rest, float)
         self._model, self._data = model, mujoco().MjData(model)
+        scattered = np.random.default_rng(0).uniform(-_SCATTER, _SCATTER, (_OTHERS, kind.joints))
+        self._others = np.clip(self.rest + scattered, -2.0, 2.0) if kind.scattered else ()
+        self._turn = turn_z(kind.turn)
         self.site = model.site(f"{name}_{GRIP}_grip_site").id
         own_joints = [f"{kind.joint}{k}" for k in range(1, kind.joints + 1)]
         numbers = [model.joint(f"{name}_{joint}").id for joint in own_joints]
@@ -61,7 +67,14 @@ class Arm:
 
     def grip(self, data: Any) -> Pose:
         """Where the point between the fingers is; z points out of the hand, y across them."""
-        return Pose.of(data.site_xpos[self.site], data.site_xmat[self.site])
+        seen = Pose.of(data.site_xpos[self.site], data.site_xmat[self.site])
+        return Pose(seen.position, seen.rotation @ self._turn)
+
+    def grip_at(self, joints: Joints) -> Pose:
+        """Where that point would be with the joints so."""
+        self._data.qpos[self.addresses] = joints
+        mujoco().mj_kinematics(self._model, self._data)
+        return self.grip(self._data)
 
     def solve(self, target: Pose, *starts: Joints) -> Joints | None:
         """Joints that bring the grip to a pose; None if it cannot be reached.
@@ -70,9 +83,9 @@ class Arm:
 
         Args:
             target: of the grip.
-            *starts: joints to begin with; ``rest`` comes last in any case.
+            *starts: joints to begin with; then come ``rest``, and others around it.
         """
-        for start in (*starts, self.rest):
+        for start in (*starts, self.rest, *self._others):
             joints = self._solve_from(start, target)
             if joints is not None:
                 return joints

@@ -45,6 +45,10 @@ class Pose:
         """The same direction elsewhere, in the world's axes."""
         return Pose(self.position + np.array([x, y, z]), self.rotation)
 
+    def ahead(self, distance: float) -> Pose:
+        """The same direction farther along its own z axis."""
+        return Pose(self.position + distance * self.rotation[:, 2], self.rotation)
+
     @property
     def quaternion(self) -> Vector:
         """The rotation as a unit quaternion (w, x, y, z)."""
@@ -70,6 +74,21 @@ def grip_down(fingers: float = 0.0) -> Matrix:
         fingers: direction of the line on which they close, as an angle around z from x.
     """
     y, z = np.array([np.cos(fingers), np.sin(fingers), 0.0]), np.array([0.0, 0.0, -1.0])
+    return np.column_stack([np.cross(y, z), y, z])
+
+
+def grip_along(forward: ArrayLike, across: ArrayLike) -> Matrix:
+    """A gripper that points somewhere.
+
+    Args:
+        forward: where it points (3,).
+        across: about the line on which its fingers close (3,).
+    """
+    z = np.array(forward, float)
+    z /= np.linalg.norm(z)
+    y = np.array(across, float)
+    y -= z * (y @ z)
+    y /= np.linalg.norm(y)
     return np.column_stack([np.cross(y, z), y, z])
 
 

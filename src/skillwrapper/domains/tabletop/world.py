@@ -56,6 +56,7 @@ class TableWorld:
         data: its present state.
         arms: by name.
         held: what each arm holds; arms that hold nothing are missing.
+        attached: what sticks to another thing until an arm takes it off: the other, and its pose.
         home: joints of each arm where it waits.
     """
 
@@ -64,6 +65,7 @@ class TableWorld:
         self.arms: Mapping[str, Arm] = {a.name: Arm(model, a.name, a.kind, a.home) for a in arms}
         self.home: dict[str, Joints] = {a.name: np.array(a.home, float) for a in arms}
         self.held: dict[str, Held] = {}
+        self.attached: dict[str, Held] = {}
         self._shown_alpha = model.geom_rgba[:, 3].copy()
         self.clear()
 
@@ -71,6 +73,7 @@ class TableWorld:
         """All things away, all arms at home with open and empty hands."""
         mujoco().mj_resetData(self.model, self.data)
         self.held.clear()
+        self.attached.clear()
         for name, arm in self.arms.items():
             self.data.qpos[arm.addresses] = self.home[name]
             self.data.ctrl[arm.servos] = self.home[name]
@@ -102,6 +105,43 @@ class TableWorld:
         if held is not None:
             self._put(data, held.thing, self.arms[arm].grip(data) @ held.pose)
             mujoco().mj_kinematics(self.model, data)
+            self._carry_attached(held.thing, data)
+
+    def carried(self, arm: str) -> frozenset[str]:
+        """What moves with an arm: what it holds, and what is attached to that."""
+        held = self.held.get(arm)
+        if held is None:
+            return frozenset()
+        on_it = (thing for thing, at in self.attached.items() if at.thing == held.thing)
+        return frozenset((held.thing, *on_it))
+
+    def give(self, arm: str, thing: str, grip: Pose, opening: float) -> None:
+        """Put a thing into a gripper, as if it had been taken where it is.
+
+        Args:
+            arm: its name.
+            thing: that is in the scene.
+            grip: where the gripper would have taken it.
+            opening: of the fingers.
+        """
+        self.held[arm] = Held(thing, grip.inverse() @ self.pose(thing))
+        self.detach(thing)
+        self.set_fingers(arm, opening)
+        self.refresh()
+        self.carry(arm, self.data)
+
+    def attach(self, thing: str, to: str, pose: Pose) -> None:
+        """Let a thing stick to another one, in a pose as the other sees it."""
+        self.attached[thing] = Held(to, pose)
+        self._carry_attached(to, self.data)
+
+    def detach(self, thing: str) -> None:
+        """Let a thing stick to nothing."""
+        self.attached.pop(thing, None)
+
+    def home_grip(self, arm: str) -> Pose:
+        """Where the grip is when an arm waits."""
+        return self.arms[arm].grip_at(self.home[arm])
 
     def pose(self, thing: str) -> Pose:
         """Where a thing is."""
@@ -136,6 +176,14 @@ class TableWorld:
         for geom in range(self.model.ngeom):
             if self.model.geom(geom).name.startswith(prefix):
                 self.model.geom_rgba[geom, 3] = self._shown_alpha[geom] if visible else 0.0
+
+    def _carry_attached(self, to: str, data: Any) -> None:
+        """In some data, put what is attached to a thing where that is."""
+        body = self.model.body(to).id
+        for thing, at in self.attached.items():
+            if at.thing == to:
+                self._put(data, thing, Pose.of(data.xpos[body], data.xmat[body]) @ at.pose)
+        mujoco().mj_kinematics(self.model, data)
 
     def _put(self, data: Any, thing: str, pose: Pose) -> None:
         body = self.model.body(thing)

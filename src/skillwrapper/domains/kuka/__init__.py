@@ -1,0 +1,1 @@
+"""Two KUKA iiwa arms that spread peanut butter on a slice of bread, in MuJoCo."""
