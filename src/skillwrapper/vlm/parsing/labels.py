@@ -59,7 +59,7 @@ class _LabelReader:
         self._read_line = remembering(self._statements.read, lambda line: len(line.whole))
 
     def read(self, reply: str) -> ParsedLabels:
-        readings = [self._read_line(line) for line in reply_lines(reply)]
+        readings = list(map(self._read_line, reply_lines(reply)))
         claims = list(_claims(readings))
         usable = borne_out([said for _, _, said in claims])
         labels: dict[Atom, bool | None] = {}
@@ -75,10 +75,13 @@ class _LabelReader:
             elif labels.setdefault(atom, said.value) is not said.value:
                 unusable.append(f"{atom}: contradictory labels")
                 doubtful.add(atom)
-        labels = {a: labels[a] for a in self._atoms if a in labels and a not in doubtful}
+        for atom in doubtful:
+            labels.pop(atom, None)
+        labels = {atom: labels[atom] for atom in self._atoms if atom in labels}
         if not labels and not unusable:
             unusable.append(f"no labels in the reply: '{excerpt(reply)}'")
-        missing = tuple(a for a in self._atoms if a not in labels)
+        lacks_some = len(labels) < len(self._atoms)
+        missing = tuple(a for a in self._atoms if a not in labels) if lacks_some else ()
         return ParsedLabels(labels, missing, tuple(unusable[:_MOST_COMPLAINTS]))
 
 

@@ -24,7 +24,7 @@ def reply_lines(reply: str) -> list[Line]:
     text = clean_text(flatten_json(without_tags(text)))
     if "\n" not in text.strip():  # line breaks that were escaped once too often
         text = text.replace("\\n", "\n")
-    return join_records([plain_line(line) for line in text.split("\n")])
+    return join_records(list(map(plain_line, text.split("\n"))))
 
 
 def excerpt(line: str, length: int = 80) -> str:

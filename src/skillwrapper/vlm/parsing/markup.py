@@ -87,24 +87,27 @@ def _plain_line(written: str) -> Line:
     if not text.isascii():
         text = unicodedata.normalize("NFKC", text.translate(_CIRCLED)).translate(_PLAIN_SIGNS)
     text = text.strip()
-    if _FENCE.fullmatch(text):
+    if ("```" in text or "~~~" in text) and _FENCE.fullmatch(text):
         return Line("", "")
-    bold = _BOLD.match(text) is not None
+    bold = ("**" in text or "__" in text) and _BOLD.match(text) is not None
     if "\\" in text:
         text = _ESCAPED.sub(r"\1", text)
-    whole = " ".join(text.replace("*", "").replace("`", "").split())
+    if "*" in text or "`" in text:
+        text = text.replace("*", "").replace("`", "")
+    whole = " ".join(text.split())
     text = _without_lead(whole)
-    number = _NUMBER.match(whole)
+    listed = len(text) < len(whole)
+    number = _NUMBER.match(whole) if listed else None
     field = _KEY.match(text) if ":" in text or "=" in text else None
     return Line(
         text,
         whole,
-        number=int(number.group(1)) if number else None,
-        listed=text != whole,
-        titled=whole.startswith("#"),
-        bold=bold,
-        key=field.group(1) if field else "",
-        value=field.group(2) if field else "",
+        int(number.group(1)) if number else None,
+        listed,
+        whole.startswith("#"),
+        bold,
+        field.group(1) if field else "",
+        field.group(2) if field else "",
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from functools import lru_cache
 from typing import TypeVar
 
 _MOST = 8192
@@ -11,6 +10,23 @@ _LONGEST = 300
 
 Text = TypeVar("Text", bound=Hashable)
 Result = TypeVar("Result")
+
+
+class _Memory(dict[Text, Result]):
+    """What lines mean; looking up one that is known takes no step of Python."""
+
+    def __init__(self, read: Callable[[Text], Result], length: Callable[[Text], int]) -> None:
+        super().__init__()
+        self._read = read
+        self._length = length
+
+    def __missing__(self, line: Text) -> Result:
+        result = self._read(line)
+        if self._length(line) <= _LONGEST:
+            if len(self) >= _MOST:
+                self.clear()
+            self[line] = result
+        return result
 
 
 def remembering(
@@ -22,5 +38,4 @@ def remembering(
         read: gives the same, unchangeable result for the same line.
         length: how many characters a line has.
     """
-    known = lru_cache(maxsize=_MOST)(read)
-    return lambda line: known(line) if length(line) <= _LONGEST else read(line)
+    return _Memory(read, length).__getitem__

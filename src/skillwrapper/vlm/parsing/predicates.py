@@ -90,24 +90,37 @@ def says_nothing(reply: str) -> bool:
 
 
 def _proposals(lines: Sequence[str]) -> Iterator[_Proposal]:
-    texts = [_without(_LABEL, line.lstrip("\"' ")) for line in lines]
-    for number, text in enumerate(texts):
-        below = texts[number + 1 : number + 2 + _LOOK_AHEAD]
+    for number, line in enumerate(lines):
+        if "(" not in line and "[" not in line and "_" not in line:
+            continue  # prose: neither a bracket nor a name of several words
+        text = _content(line)
         read = _read_signature(text)
         if read is None:
             name = text.strip("\"' ")
-            if _BARE_NAME.fullmatch(name) and (semantics := _labelled_meaning(below)):
-                yield _Proposal(name, (), semantics)
+            if _BARE_NAME.fullmatch(name):
+                semantics = _labelled_meaning(_below(lines, number))
+                yield from [_Proposal(name, (), semantics)] if semantics else []
             continue
         name, parameters, rest = read
         rest = rest.lstrip("\"' ")
         separator = _SEPARATOR.match(rest)
         semantics = _tidy(rest[separator.end() :]) if separator else ""
         if not semantics and not rest.strip("|\"',.:;=-> "):
+            below = _below(lines, number)
             semantics = _labelled_meaning(below) or _meaning_in_prose(below)
             yield _Proposal(name, parameters, semantics)
         elif semantics:
             yield _Proposal(name, parameters, semantics)
+
+
+def _content(line: str) -> str:
+    """A line without the word that says what it is, and without quotes."""
+    return _without(_LABEL, line.lstrip("\"' "))
+
+
+def _below(lines: Sequence[str], number: int) -> list[str]:
+    """The next lines, in which a meaning may stand."""
+    return [_content(line) for line in lines[number + 1 : number + 2 + _LOOK_AHEAD]]
 
 
 def _read_signature(text: str) -> tuple[str, tuple[str, ...], str] | None:

@@ -47,7 +47,7 @@ def parse_sequences(
 ) -> ParsedSequences:
     """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
     read = _line_reader(tuple(skills), tuple(objects))
-    lines = [read(line) for line in reply_lines(reply)]
+    lines = list(map(read, reply_lines(reply)))
     sequences, unusable = [], []
     for group in _group(lines):
         steps = []

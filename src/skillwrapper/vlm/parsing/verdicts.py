@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from enum import Enum
+from enum import Enum, StrEnum
 from typing import NamedTuple
 
 from skillwrapper.vlm.parsing.names import words_of
 
 
-class Family(Enum):
+class Family(StrEnum):
     """Of which kind a verdict is; some only count where the rest of a reply bears them out."""
 
     WORD = "word"
