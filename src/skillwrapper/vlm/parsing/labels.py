@@ -13,6 +13,7 @@ from functools import lru_cache
 from skillwrapper.symbols.predicates import Atom
 from skillwrapper.vlm.parsing.layout import verdicts_by_line
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
+from skillwrapper.vlm.parsing.markup import Line, without_lead
 from skillwrapper.vlm.parsing.memory import remembering
 from skillwrapper.vlm.parsing.statements import LineReading, Statement, StatementReader
 from skillwrapper.vlm.parsing.verdicts import Reading, Said, Verdict, borne_out
@@ -54,35 +55,39 @@ class _LabelReader:
     """Reads summaries; remembers what lines say by themselves, since most of them come again."""
 
     def __init__(self, atoms: tuple[Atom, ...]) -> None:
-        self._atoms = atoms
-        self._statements = StatementReader(atoms)
-        self._read_line = remembering(self._statements.read, lambda line: len(line.whole))
+        self._atoms = tuple(dict.fromkeys(atoms))
+        self._statements = StatementReader(self._atoms)
+        read = remembering(self._statements.read, _length)  # lines that differ in numbers are one
+        self._read_line = remembering(lambda line: read(without_lead(line)), _length)
 
     def read(self, reply: str) -> ParsedLabels:
         readings = list(map(self._read_line, reply_lines(reply)))
         claims = list(_claims(readings))
         usable = borne_out([said for _, _, said in claims])
-        labels: dict[Atom, bool | None] = {}
-        doubtful: set[Atom] = set()
+        read: dict[int, bool | None] = {}
+        doubtful: set[int] = set()
         unusable: list[str] = []
         for line, statement, said in claims:
-            atom = statement.atom
-            if atom is None:
+            asked = statement.asked
+            if asked is None:
                 unusable.append(f"{statement.call}: not asked for, or not clear what is meant")
             elif not isinstance(said, Verdict) or said.family not in usable:
                 unusable.append(f"no label in '{excerpt(line)}'")
-                doubtful |= {atom} if said is Said.AMBIGUOUS else set()
-            elif labels.setdefault(atom, said.value) is not said.value:
-                unusable.append(f"{atom}: contradictory labels")
-                doubtful.add(atom)
-        for atom in doubtful:
-            labels.pop(atom, None)
-        labels = {atom: labels[atom] for atom in self._atoms if atom in labels}
-        if not labels and not unusable:
+                doubtful |= {asked} if said is Said.AMBIGUOUS else set()
+            elif read.setdefault(asked, said.value) is not said.value:
+                unusable.append(f"{self._atoms[asked]}: contradictory labels")
+                doubtful.add(asked)
+        for asked in doubtful:
+            read.pop(asked, None)
+        if not read and not unusable:
             unusable.append(f"no labels in the reply: '{excerpt(reply)}'")
-        lacks_some = len(labels) < len(self._atoms)
-        missing = tuple(a for a in self._atoms if a not in labels) if lacks_some else ()
+        labels = {atom: read[n] for n, atom in enumerate(self._atoms) if n in read}
+        missing = tuple(atom for n, atom in enumerate(self._atoms) if n not in read)
         return ParsedLabels(labels, missing, tuple(unusable[:_MOST_COMPLAINTS]))
+
+
+def _length(line: Line) -> int:
+    return len(line.whole)
 
 
 def _claims(readings: Sequence[LineReading]) -> Iterator[tuple[str, Statement, Reading]]:

@@ -92,9 +92,7 @@ def _plain_line(written: str) -> Line:
     bold = ("**" in text or "__" in text) and _BOLD.match(text) is not None
     if "\\" in text:
         text = _ESCAPED.sub(r"\1", text)
-    if "*" in text or "`" in text:
-        text = text.replace("*", "").replace("`", "")
-    whole = " ".join(text.split())
+    whole = " ".join(text.replace("*", "").replace("`", "").split())
     text = _without_lead(whole)
     listed = len(text) < len(whole)
     number = _NUMBER.match(whole) if listed else None
@@ -112,6 +110,11 @@ def _plain_line(written: str) -> Line:
 
 
 plain_line = remembering(_plain_line, len)
+
+
+def without_lead(line: Line) -> Line:
+    """What a line says, whatever it is listed under."""
+    return Line(line.text, line.text, titled=line.titled, bold=line.bold)
 
 
 def _without_lead(line: str) -> str:

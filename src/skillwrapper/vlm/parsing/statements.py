@@ -36,12 +36,13 @@ class Statement:
     """A grounding in a line, with what the line says of it.
 
     Attributes:
-        atom: the grounding that is meant; None if it was not asked for or cannot be told.
+        asked: which of the groundings asked for is meant, as a number; None if it is none of them
+            or cannot be told.
         call: as written.
         said: what stands around it.
     """
 
-    atom: Atom | None
+    asked: int | None
     call: Call
     said: Reading
 
@@ -86,7 +87,7 @@ class StatementReader:
     def __init__(self, atoms: Sequence[Atom]) -> None:
         self._predicate_names = frozenset(fold(a.predicate) for a in atoms)
         self._nullary = frozenset(fold(a.predicate) for a in atoms if not a.terms)
-        self._exact = {(a.predicate, a.terms): a for a in atoms}
+        self._exact = {(a.predicate, a.terms): number for number, a in enumerate(atoms)}
         self._predicates = NameIndex(a.predicate for a in atoms)
         self._objects = NameIndex(term for a in atoms for term in a.terms)
 
@@ -113,7 +114,7 @@ class StatementReader:
             return []
         return [Call(found.group(1), (), found.start(1), found.end(1))]
 
-    def _find(self, call: Call) -> Atom | None:
+    def _find(self, call: Call) -> int | None:
         exact = self._exact.get((call.name, call.arguments))
         if exact is not None:
             return exact
@@ -122,13 +123,14 @@ class StatementReader:
         known = tuple(term for term in terms if term is not None)
         if predicate is None or len(known) < len(call.arguments):
             return None
-        return self._exact.get((predicate, known)) or self._reordered(predicate, known)
+        exact = self._exact.get((predicate, known))
+        return exact if exact is not None else self._reordered(predicate, known)
 
-    def _reordered(self, predicate: str, terms: tuple[str, ...]) -> Atom | None:
+    def _reordered(self, predicate: str, terms: tuple[str, ...]) -> int | None:
         if len(terms) > _MOST_ARGUMENTS:
             return None
         orders = {self._exact.get((predicate, order)) for order in itertools.permutations(terms)}
-        fits = [atom for atom in orders if atom is not None]
+        fits = [number for number in orders if number is not None]
         return fits[0] if len(fits) == 1 else None
 
 
