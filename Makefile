@@ -2,6 +2,7 @@
 # make demo    the main job, start to end
 # make demo-robots  the same on simulated arms, in scenes never seen, with videos
 # make setup-sim  the models of the simulated arms, into your cache
+# make docs    the site of the documentation, in build/site
 # make test    the one check: lint, types, tests
 PYTHON ?= python3
 BIN := .venv/bin
@@ -9,7 +10,7 @@ DEMO_DIR ?= runs/demo
 DEMO_SEED ?= 0
 ROBOTS_DIR ?= runs/robots
 
-.PHONY: setup setup-sim demo demo-robots test lint types tests benchmark clean
+.PHONY: setup setup-sim demo demo-robots docs test lint types tests benchmark clean
 
 setup: .venv/.installed
 
@@ -17,7 +18,7 @@ setup: .venv/.installed
 	@bash .ci/system-packages
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "skillwrapper needs Python 3.11 or newer; set PYTHON=")'
 	$(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,sim]'
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,docs,gymnasium,sim]'
 	@$(BIN)/skillwrapper setup-sim || echo 'tests of the simulated arms will be skipped'
 	@touch $@
 
@@ -41,6 +42,10 @@ demo-robots: setup setup-sim
 	$(BIN)/skillwrapper verify $(ROBOTS_DIR)/panda
 	$(BIN)/skillwrapper render panda --state examples/panda/finished.yaml --seed 7 --out $(ROBOTS_DIR)/panda/goal.png
 	$(BIN)/skillwrapper solve $(ROBOTS_DIR)/panda --init-seed 77 --goal $(ROBOTS_DIR)/panda/goal.png --video $(ROBOTS_DIR)/panda/solve.webp
+
+docs: setup
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict
+	@echo 'read it: build/site/index.html'
 
 test: lint types tests
 

@@ -157,3 +157,9 @@ def test_an_earlier_vocabulary_is_taken_up_again() -> None:
     words.accept(other)
     words.use([HELD, kept])
     assert (words.active, words.dormant) == ((HELD, kept), (other,))
+
+
+def test_all_that_is_said_of_narrower_types_can_be_said_of_wider_ones() -> None:
+    full = Predicate("full", ("plate",), "the plate is full")
+    wider = vocabulary(CLEAN_CUP, full, HELD).wider(["item"])
+    assert [(p.name, p.types) for p in wider] == [("clean", ("item",)), ("full", ("item",))]

@@ -167,3 +167,38 @@ def test_what_is_in_a_machine_is_changed_and_stays_in_it() -> None:
     effects = {str(e) for o in fit.operators for e in o.operator.conditional_effects}
     assert any("inside(?each, ?washer_0)" in effect for effect in effects)
     assert fit.inconsistencies == ()
+
+
+def test_a_relation_that_reaches_on_to_what_is_below() -> None:
+    """Nothing or one thing below is enough to see it: two operators would say the same."""
+    stacks = make_domain(
+        types={"block": ()},
+        objects={"a": "block", "b": "block", "c": "block", "d": "block"},
+        skills={"Stack": "block block"},
+        failures_change_nothing=True,
+    )
+    notebook = Notebook(stacks, above := Predicate("above", ("block", "block")))
+    notebook.success("", "Stack(a, b)", "above(a, b)")
+    notebook.success("above(c, d)", "Stack(a, b)", "above(c, d) above(a, b)")
+    notebook.success("above(b, c)", "Stack(a, b)", "above(b, c) above(a, b) above(a, c)")
+    notebook.success("above(b, d)", "Stack(c, b)", "above(b, d) above(c, b) above(c, d)")
+    (learned,) = notebook.fit_skill("Stack").operators
+    (effect,) = learned.operator.conditional_effects
+    assert effect.effect == Literal(atom("above(?block_0, ?each)"))
+    assert effect.condition == (Literal(atom("above(?block_1, ?each)")),)
+    assert not notebook.fit(above).inconsistencies
+
+
+def test_a_relation_of_one_case_alone_does_not_range() -> None:
+    """Always one thing below: it is a parameter like every other."""
+    stacks = make_domain(
+        types={"block": ()},
+        objects={"a": "block", "b": "block", "c": "block", "d": "block"},
+        skills={"Stack": "block block"},
+        failures_change_nothing=True,
+    )
+    notebook = Notebook(stacks, Predicate("above", ("block", "block")))
+    notebook.success("above(b, c)", "Stack(a, b)", "above(b, c) above(a, b) above(a, c)")
+    notebook.success("above(b, d)", "Stack(c, b)", "above(b, d) above(c, b) above(c, d)")
+    (learned,) = notebook.fit_skill("Stack").operators
+    assert not learned.operator.conditional_effects

@@ -42,7 +42,7 @@ from skillwrapper.runs.by_hand import learn_by_hand
 from skillwrapper.runs.estimate import estimate_run
 from skillwrapper.runs.launch import learn as run_learning
 from skillwrapper.runs.launch import learn_recorded
-from skillwrapper.runs.models import check_models
+from skillwrapper.runs.models import asks_person, check_models
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
 
@@ -115,7 +115,8 @@ def learn(
         return
     check_ways(robot, by_hand, camera)
     folder = run_folder(out, "learning")
-    with RunProgress(messages(by_hand)) as progress, time_limit(settings.calls.max_seconds):
+    plain = by_hand or asks_person(settings.model)
+    with RunProgress(messages(plain)) as progress, time_limit(settings.calls.max_seconds):
         if by_hand:
             tell = partial(typer.echo, err=True)
             result = learn_by_hand(settings, folder, person(camera), tell, observers=[progress])
@@ -139,7 +140,8 @@ def _learn_recorded(
     layout = RunArchive.open(folder).layout
     given = {name: value for name, value in options.items() if name != "domain"}
     settings = run_settings(layout.config, given, assignments)
-    with RunProgress(messages()) as progress, time_limit(settings.calls.max_seconds):
+    plain = asks_person(settings.model)
+    with RunProgress(messages(plain)) as progress, time_limit(settings.calls.max_seconds):
         result = learn_recorded(folder, settings, observers=[progress])
     _tell_result(folder, progress, result, as_json)
 

@@ -260,7 +260,7 @@ class Inventor:
     def _try_wider(self, inconsistency: Inconsistency, fit: Fit) -> bool:
         """Whether it helps to say of wider types, that the skill takes, what is said already."""
         skill = self._fitter.recorded.domain.skill_by_name[inconsistency.skill]
-        wider = self._vocabulary.wider(p.type for p in skill.parameters)
+        wider = self._vocabulary.wider([p.type for p in skill.parameters])
         rejected = self._rejections.of(inconsistency.identity)
         fresh = [p for p in wider if p not in rejected]
         return bool(fresh) and self._try(inconsistency, fit, fresh, dormant=False)

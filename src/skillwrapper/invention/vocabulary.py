@@ -49,7 +49,7 @@ class Vocabulary:
                 chosen.setdefault(candidate.name, candidate)
         return tuple(chosen.values())
 
-    def wider(self, types: Iterable[str]) -> tuple[Predicate, ...]:
+    def wider(self, types: Collection[str]) -> tuple[Predicate, ...]:
         """The active predicates, said of wider types, where some of the types are wider.
 
         What is told of doors may be what matters of other passages.

@@ -90,16 +90,38 @@ def _ranging_changes(groups: Sequence[Group]) -> frozenset[SignedPattern]:
     """Changes that some transition made with several other objects, or with an unconnected one.
 
     What is changed and connected to nothing may stand in a relation that does not change: what is
-    in a machine is washed, and stays in it.
+    in a machine is washed, and stays in it. A relation that comes about between the arguments and
+    with one other object besides, but not always, ranges as well: who is put on top of somebody is
+    above all that are below.
     """
     found: set[SignedPattern] = set()
+    spreading: Counter[SignedPattern] = Counter()
     for group in groups:
-        patterns = [(_signed_pattern(x, group.instance.arguments), x) for x in group.changed]
+        arguments = group.instance.arguments
+        patterns = [(_signed_pattern(x, arguments), x) for x in group.changed]
         counts = Counter(p[0] for p, _ in patterns if p is not None)
         found.update(change for change, number in counts.items() if number > 1)
         strange = group.lifting.unexplained
         found.update(p[0] for p, x in patterns if p is not None and x.atom in strange)
+        between = {_inner(x, arguments) for p, x in patterns if p is None}
+        spreading.update(c for c in counts if between & set(_fillings(c, len(arguments))))
+    found.update(change for change, times in spreading.items() if times < len(groups))
     return frozenset(found)
+
+
+def _inner(literal: Literal, objects: Sequence[str]) -> SignedPattern:
+    """A changed literal as a pattern over objects; what is none of them is ``ANY``."""
+    terms = tuple(objects.index(t) if t in objects else ANY for t in literal.atom.terms)
+    return literal.positive, (literal.atom.predicate, terms)
+
+
+def _fillings(change: SignedPattern, arity: int) -> Iterator[SignedPattern]:
+    """The same change with an argument in the place of the other object."""
+    became, (predicate, terms) = change
+    if len(terms) > 1:
+        for number in set(range(arity)) - set(terms):
+            filled = tuple(number if t == ANY else t for t in terms)
+            yield became, (predicate, filled)
 
 
 def _cluster_by_core(

@@ -9,22 +9,24 @@ from skillwrapper.domains.eyesight import Eyesight
 from skillwrapper.embedded import EmbeddedModel, noise_profile
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.runs.settings import ModelSettings, RunSettings
+from skillwrapper.vlm.human_model import HumanModel
 from skillwrapper.vlm.prompt_library import PromptLibrary
 from skillwrapper.vlm.protocol import VisionLanguageModel
 from skillwrapper.vlm.recorded_model import RecordedModel
 
 EMBEDDED = "embedded"
+HUMAN = "human"
 ENDPOINT = "openai:"
 """How the names of models begin that are asked over an endpoint."""
 GREETING = "Reply with the word: ready"
 """What is asked of a model to see whether it answers at all."""
-_KINDS = ("embedded", "openai:NAME", "recorded:DIR")
+_KINDS = ("embedded", "human", "openai:NAME", "recorded:DIR")
 
 
 def open_model(
     name: str, settings: ModelSettings, seed: int, domain: str | None = None
 ) -> VisionLanguageModel:
-    """The model of a name: ``embedded``, ``openai:NAME`` or ``recorded:DIR``.
+    """The model of a name: ``embedded``, ``human``, ``openai:NAME`` or ``recorded:DIR``.
 
     Args:
         name: which model.
@@ -45,6 +47,8 @@ def open_model(
     if name == EMBEDDED:
         eyes = Eyesight.for_domain(domain)
         return EmbeddedModel(seed, noise_profile(settings.noise), eyes.readers, eyes.words)
+    if name == HUMAN:
+        return HumanModel()
     if kind == "recorded" and rest:
         return RecordedModel(Path(rest))
     if kind == "openai" and rest:
@@ -64,6 +68,11 @@ def open_prompts(settings: ModelSettings) -> PromptLibrary:
 def model_names(settings: ModelSettings) -> tuple[str, ...]:
     """The models that a run asks, each once."""
     return tuple(dict.fromkeys((settings.name, *settings.roles.values())))
+
+
+def asks_person(settings: ModelSettings) -> bool:
+    """Whether somebody at the terminal answers in a run."""
+    return HUMAN in model_names(settings)
 
 
 def check_models(settings: RunSettings) -> None:
