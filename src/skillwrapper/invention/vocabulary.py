@@ -23,10 +23,15 @@ class Vocabulary:
             need hang on them but goals.
     """
 
-    def __init__(self, types: TypeHierarchy, active: Sequence[Predicate] = ()) -> None:
+    def __init__(
+        self,
+        types: TypeHierarchy,
+        active: Sequence[Predicate] = (),
+        dormant: Sequence[Predicate] = (),
+    ) -> None:
         self._types = types
         self.active: tuple[Predicate, ...] = tuple(active)
-        self.dormant: tuple[Predicate, ...] = ()
+        self.dormant: tuple[Predicate, ...] = tuple(dormant)
         self.changes: frozenset[str] = frozenset()
 
     def fresh(

@@ -69,11 +69,13 @@ class EarlierRun:
         finished: how many iterations it has finished; they stay part of the run.
         is_all: whether it is learned from this alone: every episode is taken as it is, and nothing
             is executed.
+        words: predicates that a person has named; they are tried before a model is asked.
     """
 
     episode: Callable[[int], EpisodeSoFar | None] = _nothing
     finished: int = 0
     is_all: bool = False
+    words: tuple[Predicate, ...] = ()
 
     def recorded(self, number: int) -> EpisodeSoFar | None:
         """The record of an episode as the run has to take it; None where there is none."""
@@ -117,7 +119,7 @@ class LearningAlgorithm:
         self._explorer = make_explorer(domain, assistant, exploration, settings.seed)
         lifted = exploration.pairs == "skills"
         self._pairs = PairCounts(domain.skill_instances, lifted=lifted)
-        self._vocabulary = Vocabulary(domain.types)
+        self._vocabulary = Vocabulary(domain.types, dormant=self._earlier.words)
         self._labeller = self._make_labeller()
         self._fitter = Fitter(self._labeller, make_learner(settings.learning))
         self._inventor = self._make_inventor(assistant)

@@ -10,7 +10,7 @@ from typing import Any
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ProviderError, RunFolderError, UserError
 from skillwrapper.robots.absent import AbsentRobot
-from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm
+from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm, Respondent
 from skillwrapper.runs.archive import (
     ArchiveWriter,
     RunArchive,
@@ -19,6 +19,7 @@ from skillwrapper.runs.archive import (
     reserved,
     restate_settings,
 )
+from skillwrapper.runs.corrections import CorrectedRespondent, Corrections
 from skillwrapper.runs.events import Observer, RunEvent, RunStarted
 from skillwrapper.runs.model_sessions import CallCounter, open_session
 from skillwrapper.runs.models import check_models
@@ -135,15 +136,26 @@ def _run(
     store = archive.layout.calls if archive else None
     with open_session(settings, store, model=model) as session:
         watching: list[Observer] = [_iteration_counter(session.counter)]
-        earlier = None
+        earlier, corrections = None, Corrections()
         if archive is not None:
             watching.append(ArchiveWriter(archive))
-            earlier = EarlierRun(archive.episode, archive.layout.finished_iterations(), is_all)
+            corrections = Corrections.of(archive.corrections())
+            # What was chosen before a correction is not what would be chosen after it.
+            as_it_is = is_all or bool(corrections)
+            earlier = EarlierRun(
+                archive.episode,
+                archive.layout.finished_iterations(),
+                as_it_is,
+                tuple(corrections.words.values()),
+            )
         watching += observers
         for observer in watching:
             observer(RunStarted(0, session.counter))
         session.greet()
-        return LearningAlgorithm(settings, environment, session.assistant, watching, earlier).run()
+        assistant: Respondent = session.assistant
+        if corrections:
+            assistant = CorrectedRespondent(assistant, corrections)
+        return LearningAlgorithm(settings, environment, assistant, watching, earlier).run()
 
 
 def _settings(

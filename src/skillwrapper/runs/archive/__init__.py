@@ -8,10 +8,11 @@ calls.sqlite       every model call
 iterations/001/    truth table, predicates, operators, decisions, certificate, summary
 model/             domain.pddl, predicates.yaml, model.json
 events.jsonl       what happened when
+corrections.jsonl  what people have corrected, if they have
 curve.json         how true the model was after each iteration, if somebody measured it
 
-Episodes, pictures and calls are what a run cannot compute again; everything else follows from
-them, and is written anew by a resumed run where it is missing or damaged.
+Episodes, pictures, calls and corrections are what a run cannot compute again; everything else
+follows from them, and is written anew by a resumed run where it is missing or damaged.
 """
 
 from skillwrapper.runs.archive.archive import ArchivedIteration, RunArchive

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from skillwrapper.errors import FileError, RunFolderError, UserError
 from skillwrapper.files.json_documents import read_json, read_records, read_text
-from skillwrapper.files.writing import write_json
+from skillwrapper.files.writing import append_line, write_json
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.runs.archive.labels import RecordedLabels
 from skillwrapper.runs.archive.layout import RunLayout
@@ -18,6 +18,7 @@ from skillwrapper.runs.archive.pictures import PictureStore
 from skillwrapper.runs.archive.records import (
     FORMAT,
     CertificateRecord,
+    CorrectionRecord,
     CurveFile,
     CurvePointRecord,
     DecisionRecord,
@@ -253,6 +254,14 @@ class RunArchive:
     def events(self) -> list[EventRecord]:
         """The log, in order; empty if there is none."""
         return read_records(self.layout.events, EventRecord)
+
+    def corrections(self) -> list[CorrectionRecord]:
+        """What people have corrected, in order; empty if nothing."""
+        return read_records(self.layout.corrections, CorrectionRecord)
+
+    def correct(self, correction: CorrectionRecord) -> None:
+        """Add a correction; it is on the disk when this returns."""
+        append_line(self.layout.corrections, to_plain(correction))
 
     def curve(self) -> tuple[CurvePointRecord, ...]:
         """How true the model was after each iteration; empty if nobody has measured it."""

@@ -47,6 +47,11 @@ class RunLayout:
         return self.root / "events.jsonl"
 
     @property
+    def corrections(self) -> Path:
+        """What people have corrected."""
+        return self.root / "corrections.jsonl"
+
+    @property
     def curve(self) -> Path:
         """How true the model was after each iteration."""
         return self.root / "curve.json"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, RootModel
 
@@ -191,6 +191,53 @@ class CurvePointRecord(Record):
     effect_accuracy: Share | None = None
     predicates: Count | None = None
     operators: Count | None = None
+
+
+class LabelCorrection(Record):
+    """A person says what is true in a picture, or that nobody can tell (None).
+
+    ``read`` is what stood there before.
+    """
+
+    kind: Literal["label"] = "label"
+    observation: Sha256
+    atom: str = Field(min_length=1)
+    value: bool | None
+    read: bool | None
+
+
+class Renaming(Record):
+    """A person gives a predicate another name; types and meaning are what it has now."""
+
+    kind: Literal["rename"] = "rename"
+    predicate: str = Field(min_length=1)
+    to: str = Field(min_length=1)
+    types: tuple[str, ...]
+    semantics: str
+
+
+class Rewording(Record):
+    """A person says otherwise what a predicate means; the types are what it has now."""
+
+    kind: Literal["reword"] = "reword"
+    predicate: str = Field(min_length=1)
+    types: tuple[str, ...]
+    semantics: str = Field(min_length=1)
+
+
+class Rejection(Record):
+    """A person does not want a predicate."""
+
+    kind: Literal["reject"] = "reject"
+    predicate: str = Field(min_length=1)
+
+
+class CorrectionRecord(
+    RootModel[
+        Annotated[LabelCorrection | Renaming | Rewording | Rejection, Field(discriminator="kind")]
+    ]
+):
+    """A line of ``corrections.jsonl``."""
 
 
 class DecisionsFile(RootModel[tuple[DecisionRecord, ...]]):

@@ -6,7 +6,7 @@ what is there and written where it differs, so that a resumed run mends what was
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +43,7 @@ from skillwrapper.runs.events import (
     SkillExecuted,
     SkillRecalled,
 )
-from skillwrapper.runs.results import LearningResult
+from skillwrapper.runs.results import LearningResult, SceneLabels
 from skillwrapper.symbols.describe import describe_model
 from skillwrapper.symbols.files import model_to_json, predicates_to_yaml
 from skillwrapper.symbols.pddl import print_domain
@@ -86,15 +86,27 @@ class ArchiveWriter:
         """Describe an iteration; the summary comes last, and marks it finished."""
         folder, result = self._layout.iteration(event.iteration), event.result
         decisions = map(_decision_record, result.decisions[-1])
+        _keep(folder / "decisions.json", json_text([to_plain(d) for d in decisions]))
+        self._write_learned(folder, result, event.labels)
+
+    def write_relearned(
+        self, iteration: int, result: LearningResult, labels: Sequence[SceneLabels]
+    ) -> None:
+        """What was learned anew from the episodes up to an iteration; its decisions stay."""
+        self._write_learned(self._layout.iteration(iteration), result, labels)
+        self._write_result(result)
+
+    def _write_learned(
+        self, folder: Path, result: LearningResult, labels: Sequence[SceneLabels]
+    ) -> None:
         _keep(folder / "predicates.yaml", predicates_to_yaml(result.model.predicates))
         _keep(folder / "model.json", model_to_json(result.model))
         _keep(folder / "operators.txt", describe_model(result.model))
-        _keep(folder / "truth_table.csv", truth_table(event.labels))
+        _keep(folder / "truth_table.csv", truth_table(labels))
         _keep(folder / "certificate.json", json_text(result.certificate.to_json()))
         _keep(folder / "unresolved.json", json_text(_unresolved(result)))
         if result.decoding is not None:
             _keep(folder / "decoding.json", json_text(to_plain(_decoding(result.decoding))))
-        _keep(folder / "decisions.json", json_text([to_plain(d) for d in decisions]))
         _keep(folder / "summary.json", json_text(to_plain(_summary(result))))
 
     def _write_result(self, result: LearningResult) -> None:
