@@ -6,18 +6,27 @@ import sys
 from pathlib import Path
 
 import pytest
+from command_line import command
 from seen_kitchen import embedded_model
 
 from skillwrapper.cli.main import main
 from skillwrapper.domains.discovery import bundled_domains, find_domain
+from skillwrapper.domains.starting import start_project
 from skillwrapper.embedded import server_faults as faults
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FaultPlan
 from skillwrapper.errors import ConfigurationError
-from skillwrapper.runs.doctor import Finding, examine
+from skillwrapper.runs.doctor import examine
+from skillwrapper.runs.findings import Finding
 from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.runs.specimens import read_specimen
-from skillwrapper.vlm.protocol import ModelReply, ModelRequest, ModelWrapper, VisionLanguageModel
+from skillwrapper.vlm.protocol import (
+    ModelReply,
+    ModelRequest,
+    ModelWrapper,
+    Role,
+    VisionLanguageModel,
+)
 from skillwrapper.world.observation import Picture
 from skillwrapper.world.skills import SkillInstance
 
@@ -110,3 +119,66 @@ def test_the_command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixt
             main()
     assert stopped.value.code == 2
     assert "wrong reading pictures: right about 0 of 4 true" in capsys.readouterr().out
+
+
+@pytest.fixture
+def cubes(tmp_path: Path) -> Path:
+    """A new project: a robot, and no known answers."""
+    start_project(tmp_path / "cubes")
+    return tmp_path / "cubes"
+
+
+def test_without_known_answers_a_model_must_be_at_one_with_itself(cubes: Path) -> None:
+    found = list(examine(ModelSettings(name="embedded"), str(cubes)))
+    assert all(finding.passed for finding in found), found
+    assert [f.check for f in found[3:]] == [
+        "inventing predicates",
+        "asked twice",
+        "asked one by one",
+        "telling things apart",
+    ]
+
+
+class Fickle(ModelWrapper):
+    """Says true once and false once, or the same of everything."""
+
+    def __init__(self, words: tuple[str, ...]) -> None:
+        super().__init__(embedded_model(0))
+        self.words, self.times = words, 0
+
+    def complete(self, request: ModelRequest) -> ModelReply:
+        if request.role is not Role.EVALUATE:
+            return super().complete(request)
+        self.times += 1
+        atoms = request.prompt.partition("## Statements\n")[2].partition("\n\n")[0]
+        word = self.words[self.times % len(self.words)]
+        return ModelReply(atoms.replace("- ", "").replace(")", f"): {word}"))
+
+
+@pytest.mark.parametrize(
+    ("words", "check", "why"),
+    [
+        (("true", "false"), "asked twice", "contradicts itself"),
+        (("true",), "telling things apart", "says true of everything"),
+    ],
+)
+def test_whoever_contradicts_themselves_or_does_not_look_is_found_out(
+    words: tuple[str, ...], check: str, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("skillwrapper.runs.doctor.open_model", lambda *given: Fickle(words))
+    picture = find_domain("burger").folder / "doctor" / "carrying.png"
+    found = list(examine(ModelSettings(name="embedded"), "burger", [str(picture)]))
+    assert why in next(f.detail for f in found if f.check == check and not f.passed)
+
+
+def test_pictures_that_are_given_are_shown(
+    cubes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    picture = tmp_path / "mine.png"
+    start = find_domain(str(cubes)).make_environment().reset(seed=0)
+    picture.write_bytes(start.picture().png)
+    assert command("doctor", cubes, "--model", "embedded", "--picture", picture) == 0
+    assert "labels are the same" in capsys.readouterr().out
+    assert command("doctor", cubes, "--model", "embedded", "--picture", "no.png") == 2
+    assert command("doctor", "--model", "embedded", "--picture", picture) == 2
+    assert "expected a domain to go with it" in capsys.readouterr().err

@@ -12,6 +12,7 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
+from skillwrapper.cli.domain_argument import OptionalDomainArgument
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.setting_options import (
     BaseUrlOption,
@@ -25,7 +26,7 @@ from skillwrapper.domains.eyesight import Eyesight
 from skillwrapper.embedded import EmbeddedModel
 from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FAULTS, FaultPlan
-from skillwrapper.errors import RunFolderError
+from skillwrapper.errors import ConfigurationError, RunFolderError
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.doctor import examine
 from skillwrapper.vlm.protocol import Role
@@ -78,9 +79,11 @@ def calls(
 
 def doctor(
     context: typer.Context,
-    model: Annotated[str, typer.Option(help="embedded, openai:NAME or recorded:DIR.")],
-    domain: Annotated[
-        str | None, typer.Option(help="Domain whose pictures are shown; default: a bundled one.")
+    model: Annotated[str, typer.Option(help="embedded, human, openai:NAME or recorded:DIR.")],
+    domain: OptionalDomainArgument = None,
+    picture: Annotated[
+        list[str] | None,
+        typer.Option(help="A picture of the domain to be tried on; may be repeated."),
     ] = None,
     base_url: BaseUrlOption = None,
     prompts: PromptsOption = None,
@@ -91,11 +94,13 @@ def doctor(
     image_size: Annotated[int | None, option("image_size")] = None,
     as_json: JsonFlag = False,
 ) -> None:
-    """Try a model with a few calls: does it answer, see what is shown, and say what can be read."""
+    """Try a model with a few calls, on pictures of a domain: does it answer, see, and agree."""
+    if picture and domain is None:
+        raise ConfigurationError("--picture: expected a domain to go with it, got none")
     options = options_given({**context.params, "domain": domain or "bundled"})
     settings = run_settings(None, options, ()).model
     findings = []
-    for finding in examine(settings, domain):
+    for finding in examine(settings, domain, picture or ()):
         findings.append(finding)
         if not as_json:
             mark = ("ok    ", "green") if finding.passed else ("wrong ", "red")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 
 from skillwrapper.domains.discovery import bundled_domains, find_domain
 from skillwrapper.domains.package import DomainPackage
@@ -12,6 +12,8 @@ from skillwrapper.exploration.questions import ProposalQuestion
 from skillwrapper.invention.questions import InventionQuestion
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.questions import EvaluationQuestion
+from skillwrapper.runs.consistency import OwnPictures, check_consistency
+from skillwrapper.runs.findings import Finding, of_no_use
 from skillwrapper.runs.models import GREETING, open_model, open_prompts
 from skillwrapper.runs.settings import ModelSettings
 from skillwrapper.runs.specimens import Specimen, read_specimen
@@ -21,40 +23,36 @@ from skillwrapper.vlm.models import ModelSet
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
 from skillwrapper.vlm.retrying import RetryingModel, RetryPolicy
 from skillwrapper.vlm.settings import AskingSettings
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.pictures import load_pictures
 
 _ATTEMPTS = RetryPolicy(attempts=3, first_wait=0.5, longest_wait=2.0, longest_asked_wait=10.0)
 _HOW = AskingSettings(reasks=0, unusable_reasks=1)
+_TWICE = _HOW.model_copy(update={"votes": 2})
 _GOOD = 0.75
 """The share of answers that must be right."""
-_CHOOSE_ANOTHER = "reword its template (learn --prompts), or choose another model"
 
 
-@dataclass(frozen=True)
-class Finding:
-    """What one check showed.
-
-    Attributes:
-        check: what was tried.
-        passed: whether it went well.
-        detail: what was seen; if it did not go well, also what to do.
-    """
-
-    check: str
-    passed: bool
-    detail: str
-
-
-def examine(settings: ModelSettings, domain: str | None = None) -> Iterator[Finding]:
+def examine(
+    settings: ModelSettings,
+    domain: str | None = None,
+    pictures: Sequence[str] = (),
+) -> Iterator[Finding]:
     """Try a model; stops at the first check that makes the others pointless.
 
     Args:
         settings: which model, where, and with which templates.
-        domain: whose pictures it is tried on; None for a bundled one's.
+        domain: whose pictures it is tried on; None for a bundled one's. Of one that brings none
+            with known answers, what its robot sees at a start is shown.
+        pictures: files of pictures of the domain, in place of all that.
 
     Raises:
-        UserError: if the domain cannot be read, or brings no pictures for this.
+        UserError: if the domain or a picture cannot be read, or there is nothing to show.
+        RobotError: if the robot that is to look fails.
     """
-    specimen = read_specimen(find_domain(domain) if domain else _bundled())
+    package = find_domain(domain) if domain else _bundled()
+    knows = package.has("doctor") and not pictures
+    specimen = read_specimen(package) if knows else _own_pictures(package, pictures)
     try:
         model = open_model(settings.name, settings, 0, domain)
     except (ProviderError, UserError) as error:
@@ -70,19 +68,50 @@ def examine(settings: ModelSettings, domain: str | None = None) -> Iterator[Find
         yield Finding("prompt templates", True, f"those in {settings.prompts} can be used")
     patient = RetryingModel(model, _ATTEMPTS)
     assistant = Assistant(ModelSet.of(patient), prompts, _HOW)
-    checks: tuple[tuple[str, Callable[[], Finding]], ...] = (
-        ("endpoint", lambda: _answers(patient)),
-        ("pictures", lambda: _accepts_pictures(patient, specimen)),
-        ("proposing sequences", lambda: _proposes(assistant, specimen)),
-        ("inventing predicates", lambda: _invents(assistant, specimen)),
-        ("reading pictures", lambda: _reads(assistant, specimen)),
-    )
+    checks: list[tuple[str, Callable[[], Iterable[Finding]]]] = [
+        ("endpoint", lambda: [_answers(patient)])
+    ]
+    if isinstance(specimen, Specimen):
+        checks += _known_answers(patient, assistant, specimen)
+    else:
+        twice = Assistant(ModelSet.of(patient), prompts, _TWICE)
+        checks += _own_words(patient, assistant, twice, specimen)
     for name, check in checks:
         try:
-            yield check()
+            yield from check()
         except (ProviderError, UserError) as error:
             yield Finding(name, False, str(error))
             return
+
+
+def _known_answers(
+    model: VisionLanguageModel, assistant: Assistant, specimen: Specimen
+) -> list[tuple[str, Callable[[], Iterable[Finding]]]]:
+    return [
+        ("pictures", lambda: [_accepts_pictures(model, specimen.success.before)]),
+        ("proposing sequences", lambda: [_proposes(assistant, specimen)]),
+        ("inventing predicates", lambda: [_invents(assistant, specimen)]),
+        ("reading pictures", lambda: [_reads(assistant, specimen)]),
+    ]
+
+
+def _own_words(
+    model: VisionLanguageModel, once: Assistant, twice: Assistant, own: OwnPictures
+) -> list[tuple[str, Callable[[], Iterable[Finding]]]]:
+    return [
+        ("pictures", lambda: [_accepts_pictures(model, own.observations[0])]),
+        ("consistency", lambda: check_consistency(once, twice, own)),
+    ]
+
+
+def _own_pictures(package: DomainPackage, files: Sequence[str]) -> OwnPictures:
+    """The pictures that are given, or what the robot of a domain sees at a start."""
+    if files:
+        seen = tuple(load_pictures([file]) for file in files)
+        return OwnPictures(package.domain, package.domain.scene(), seen)
+    with closing(package.make_environment()) as environment:
+        start = environment.reset(seed=0)
+        return OwnPictures(package.domain, environment.scene, (start,))
 
 
 def _bundled() -> DomainPackage:
@@ -98,9 +127,9 @@ def _answers(model: VisionLanguageModel) -> Finding:
     return Finding("endpoint", True, f"it answers, in {reply.usage.seconds:.1f} s")
 
 
-def _accepts_pictures(model: VisionLanguageModel, specimen: Specimen) -> Finding:
+def _accepts_pictures(model: VisionLanguageModel, shown: Observation) -> Finding:
     prompt = "Say in one sentence what the picture shows."
-    model.complete(ModelRequest(Role.ACT, "", prompt, specimen.success.before.pictures))
+    model.complete(ModelRequest(Role.ACT, "", prompt, shown.pictures))
     return Finding("pictures", True, "it accepts a picture")
 
 
@@ -113,7 +142,7 @@ def _proposes(assistant: Assistant, specimen: Specimen) -> Finding:
     if answer.sequences:
         first = ", ".join(map(str, answer.sequences[0][:3]))
         return Finding("proposing sequences", True, f"e.g. {first} ...")
-    return _of_no_use("proposing sequences", answer.unusable)
+    return of_no_use("proposing sequences", answer.unusable)
 
 
 def _invents(assistant: Assistant, specimen: Specimen) -> Finding:
@@ -136,7 +165,7 @@ def _invents(assistant: Assistant, specimen: Specimen) -> Finding:
         return Finding(
             "inventing predicates", True, f"e.g. {predicate.signature}: {predicate.semantics}"
         )
-    return _of_no_use("inventing predicates", answer.unusable)
+    return of_no_use("inventing predicates", answer.unusable)
 
 
 def _reads(assistant: Assistant, specimen: Specimen) -> Finding:
@@ -149,7 +178,7 @@ def _reads(assistant: Assistant, specimen: Specimen) -> Finding:
     )
     labels = [answer.labels for answer in answers]
     if not any(label is not None for picture in labels for label in picture.values()):
-        return _of_no_use("reading pictures", ("no label in the whole reply",))
+        return of_no_use("reading pictures", ("no label in the whole reply",))
     return _judged(labels, specimen.truth)
 
 
@@ -189,8 +218,3 @@ def _why(said: Sequence[Mapping[Atom, bool | None]], changed: Sequence[Atom]) ->
     if all(said[0][atom] == said[1][atom] for atom in changed):
         return "it says the same of different pictures: it does not seem to see them"
     return "it does not read these pictures well enough"
-
-
-def _of_no_use(check: str, unusable: tuple[str, ...]) -> Finding:
-    why = unusable[0] if unusable else "nothing in it was of use"
-    return Finding(check, False, f"the replies cannot be used ({why}); {_CHOOSE_ANOTHER}")
