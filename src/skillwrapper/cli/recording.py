@@ -27,7 +27,8 @@ def import_(
     recording: Annotated[
         Path,
         typer.Argument(
-            help="A file .csv or .jsonl: episode, skill, arguments, success, before, after, scene."
+            help="A file .csv or .jsonl: episode, skill, arguments, success, before, after, scene; "
+            "or a dataset of Minari."
         ),
     ],
     out: Annotated[Path, typer.Option(help="The folder to make.")],

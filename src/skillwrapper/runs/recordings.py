@@ -11,13 +11,10 @@ import json
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from io import StringIO
 from pathlib import Path
-from typing import TypeVar
-
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from typing import Protocol, TypeVar
 
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.errors import FileError, RunFolderError, UserError
@@ -25,6 +22,8 @@ from skillwrapper.files.json_documents import parse_record, read_entries, read_t
 from skillwrapper.files.writing import explained
 from skillwrapper.runs.archive import EpisodeFile, make_archive
 from skillwrapper.runs.episodes import EpisodeSoFar
+from skillwrapper.runs.minari import MinariDataset
+from skillwrapper.runs.recorded_rows import COLUMNS, RecordedRow
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
@@ -34,62 +33,13 @@ from skillwrapper.world.skills import SkillInstance
 
 Result = TypeVar("Result")
 
-_TRUTH: Mapping[str, bool] = {"true": True, "false": False, "1": True, "0": False}
-COLUMNS = ("episode", "skill", "arguments", "success", "before", "after", "scene")
-"""Of a recording; ``scene`` may be missing."""
 
+class PictureSource(Protocol):
+    """Where the pictures of a recording are."""
 
-class RecordedRow(BaseModel):
-    """A line of a recording: one execution of a skill.
-
-    In CSV, arguments are separated by blanks; several cameras are ``front=a.png top=b.png``.
-    """
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    episode: str = Field(min_length=1, coerce_numbers_to_str=True)
-    skill: str
-    arguments: tuple[str, ...]
-    success: bool
-    before: dict[str, str]
-    after: dict[str, str]
-    scene: str | None = None
-
-    @field_validator("arguments", mode="before")
-    @classmethod
-    def _split_arguments(cls, value: object) -> object:
-        return tuple(value.replace(",", " ").split()) if isinstance(value, str) else value
-
-    @field_validator("success", mode="before")
-    @classmethod
-    def _read_truth(cls, value: object) -> object:
-        known = _TRUTH.get(str(value).strip().lower())
-        if known is None:
-            raise ValueError("expected true or false")
-        return known
-
-    @field_validator("before", "after", mode="before")
-    @classmethod
-    def _split_cameras(cls, value: object) -> object:
-        if not isinstance(value, str):
-            return value
-        parts = [part.partition("=") for part in value.split()] if "=" in value else []
-        if parts and all(equals and file for _, equals, file in parts):
-            return {camera: file for camera, _, file in parts}
-        return {"main": value.strip()}
-
-    @field_validator("scene", mode="before")
-    @classmethod
-    def _no_scene(cls, value: object) -> object:
-        return value or None
-
-
-@dataclass(frozen=True)
-class _Place:
-    """A row with where it stands."""
-
-    row: RecordedRow
-    where: str
+    def load(self, files: Mapping[str, str]) -> Observation:
+        """The observation of some cameras, by their names in the recording."""
+        ...
 
 
 def read_recording(path: Path, domain: Domain) -> tuple[EpisodeSoFar, ...]:
@@ -97,16 +47,25 @@ def read_recording(path: Path, domain: Domain) -> tuple[EpisodeSoFar, ...]:
 
     Args:
         path: a file ``.csv`` with a line of column names, or ``.jsonl``; pictures are named
-            relative to it.
+            relative to it. Or a dataset of Minari: its folder, or its file ``.hdf5``.
         domain: what skills and objects there are.
 
     Raises:
         UserError: if anything in it is not what it should be; names file and line.
     """
+    if MinariDataset.is_one(path):
+        with MinariDataset.open(path) as dataset:
+            return _read(path, dataset.rows(), dataset, domain)
+    return _read(path, _rows(path), _Pictures(path.parent), domain)
+
+
+def _read(
+    path: Path, rows: Iterator[tuple[str, RecordedRow]], pictures: PictureSource, domain: Domain
+) -> tuple[EpisodeSoFar, ...]:
+    """The episodes of rows, each with where it stands."""
     episodes: dict[str, EpisodeSoFar] = {}
-    pictures = _Pictures(path.parent)
-    for place in _rows(path):
-        _checked(place.where, partial(_take, place.row, episodes, domain, pictures))
+    for where, row in rows:
+        _checked(where, partial(_take, row, episodes, domain, pictures))
     if not episodes:
         raise FileError(f"{path}: expected at least one execution, got none")
     return tuple(episodes.values())
@@ -165,7 +124,7 @@ class _Pictures:
 
 
 def _take(
-    row: RecordedRow, episodes: dict[str, EpisodeSoFar], domain: Domain, pictures: _Pictures
+    row: RecordedRow, episodes: dict[str, EpisodeSoFar], domain: Domain, pictures: PictureSource
 ) -> None:
     """Add a row to the episode that it is of."""
     scene = domain.scene(row.scene)
@@ -185,18 +144,20 @@ def _take(
     episode.transitions.append(Transition(before, instance, row.success, after))
 
 
-def _rows(path: Path) -> Iterator[_Place]:
+def _rows(path: Path) -> Iterator[tuple[str, RecordedRow]]:
     match path.suffix.lower():
         case ".csv":
             yield from _csv_rows(path)
         case ".jsonl":
-            for where, row in read_entries(path, RecordedRow):
-                yield _Place(row, where)
+            yield from read_entries(path, RecordedRow)
         case _:
-            raise FileError(f"{path}: expected a file .csv or .jsonl; its name says neither")
+            raise FileError(
+                f"{path}: expected a file .csv, .jsonl or .hdf5, or a folder of Minari; "
+                "its name says none of these"
+            )
 
 
-def _csv_rows(path: Path) -> Iterator[_Place]:
+def _csv_rows(path: Path) -> Iterator[tuple[str, RecordedRow]]:
     reader = csv.DictReader(StringIO(read_text(path), newline=""), strict=True)
     try:
         names = [name.strip() for name in reader.fieldnames or ()]
@@ -210,7 +171,7 @@ def _csv_rows(path: Path) -> Iterator[_Place]:
             where = f"{path}:{reader.line_num}"
             if None in entries or None in entries.values():
                 raise FileError(f"{where}: expected {len(names)} values, got another number")
-            yield _Place(parse_record(json.dumps(entries), RecordedRow, where), where)
+            yield where, parse_record(json.dumps(entries), RecordedRow, where)
     except csv.Error as error:
         raise FileError(f"{path}:{reader.line_num}: expected CSV ({error})") from error
 
