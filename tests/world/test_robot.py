@@ -283,7 +283,7 @@ def test_the_documented_classes_work(tmp_path: Path) -> None:
     """The two classes in docs/domains.md, with what they leave open."""
     page = (Path(__file__).parents[2] / "docs" / "domains.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    (declared,) = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    declared = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)[0]
     (tmp_path / "domain.yaml").write_text(declared)
     domain = skillwrapper.load_domain(tmp_path / "domain.yaml")
     names: dict[str, Any] = {
