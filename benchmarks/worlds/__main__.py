@@ -9,7 +9,6 @@ took, and the longest iteration. Run: ``python -m benchmarks.worlds [--world NAM
 from __future__ import annotations
 
 import argparse
-import ast
 from collections.abc import Sequence
 
 from benchmarks.worlds.bakery import Bakery
@@ -18,7 +17,7 @@ from benchmarks.worlds.depot import Depot
 from benchmarks.worlds.harbour import Harbour
 from benchmarks.worlds.laboratory import Laboratory
 from benchmarks.worlds.laundry import Laundry
-from benchmarks.worlds.measure import Outcome, measure
+from benchmarks.worlds.measure import Outcome, measure, read_settings
 from benchmarks.worlds.styles import STYLES
 from benchmarks.worlds.warehouse import Warehouse
 from benchmarks.worlds.workshop import Workshop
@@ -43,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE")
     parser.add_argument("--told", action="store_true", help="print choices, model and causes")
     given = parser.parse_args(arguments)
-    settings = {k: _value(v) for k, _, v in (text.partition("=") for text in given.set)}
+    settings = read_settings(given.set)
     for name in given.world:
         for seed in given.seeds:
             for style in given.style or [STYLES[seed % len(STYLES)]]:
@@ -53,13 +52,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 print(f"{name:10s} seed {seed:2d} {style:6s} {found}", flush=True)
                 if given.told:
                     _explain(found)
-
-
-def _value(text: str) -> object:
-    try:
-        return ast.literal_eval(text)
-    except (SyntaxError, ValueError):
-        return text
 
 
 def _explain(found: Outcome) -> None:

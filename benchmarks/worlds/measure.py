@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import random
 import resource
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -130,7 +131,7 @@ def measure(
         "domain": world.domain.name, "seed": seed, "iterations": -(-executions // budget),
         "exploration": {"budget": budget},
     })  # fmt: skip
-    result = learn(_with(run, settings), environment=world, model=reader, observers=[watch])
+    result = learn(with_settings(run, settings), environment=world, model=reader, observers=[watch])
     solver = ModelSolver(
         world=ProblemWorld(world),
         model=result.model,
@@ -147,7 +148,20 @@ def measure(
     )  # fmt: skip
 
 
-def _with(run: RunSettings, settings: dict[str, object]) -> RunSettings:
+def read_settings(texts: Sequence[str]) -> dict[str, object]:
+    """Settings that are given as NAME=VALUE."""
+    return {name: _value(value) for name, _, value in (text.partition("=") for text in texts)}
+
+
+def _value(text: str) -> object:
+    try:
+        return ast.literal_eval(text)
+    except (SyntaxError, ValueError):
+        return text
+
+
+def with_settings(run: RunSettings, settings: Mapping[str, object]) -> RunSettings:
+    """Settings with some replaced, whose names have dots."""
     data = run.model_dump()
     for name, value in settings.items():
         *path, last = name.split(".")

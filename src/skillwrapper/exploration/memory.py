@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.exploration.roles import Kind, RoleNumbers, Roles, SceneRoles
+from skillwrapper.grounding import Labels
 from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.world.domain import Domain
@@ -158,9 +159,10 @@ class Memory:
     ) -> None:
         """Take note that what the model cannot explain is looked at again by an attempt now."""
         signature = scene.signature(self.roles, scene.number[instance])
-        found = {(cause.skill, self.signatures[cause.culprit]) for cause in causes}
-        if (instance.skill, signature) in found:
-            self.pursued[instance.skill, signature] += 1
+        same = {self.signatures[cause.culprit] for cause in causes if cause.skill == instance.skill}
+        # Who has other roles than all of them stands for each of them.
+        for pursued in same & {signature} or same:
+            self.pursued[instance.skill, pursued] += 1
 
     def pursued_in_all(self, skill: str) -> int:
         """How often any cause of a skill was gone after."""
@@ -177,6 +179,21 @@ class Memory:
             instance: the skill instance.
         """
         return (observation, instance) in self._tried or (state, instance) in self._done
+
+    def done(self, states: Labels, instances: Sequence[SkillInstance]) -> NDArray[np.bool_]:
+        """What was run in this episode where the labels were like this (states, instances).
+
+        Args:
+            states: labels (states, atoms).
+            instances: the skill instances.
+        """
+        found = np.zeros((len(states), len(instances)), dtype=bool)
+        numbers = {instance: number for number, instance in enumerate(instances)}
+        rows = {state.tobytes(): row for row, state in enumerate(states)}
+        for state, instance in self._done:
+            if state in rows:
+                found[rows[state], numbers[instance]] = True
+        return found
 
     def has_failed(self, observation: str, state: bytes, instance: SkillInstance) -> bool:
         """Whether it moreover failed."""

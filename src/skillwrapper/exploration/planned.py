@@ -168,6 +168,7 @@ class PlannedExplorer:
         values = worth.total
         tried = [self._memory.was_tried(seen, here, instance) for instance in scene.instances]
         values[1:] *= _MISSED ** np.array([self._memory.missed[i] for i in scene.instances])
+        values[self._memory.done(lookahead.states, scene.instances)[lookahead.state]] = -_NOTHING
         values[0, tried] = -_NOTHING
         graph, space = self._graph_of(situation), situation.space
         self._thought = Thought(scene, lookahead, worth, values, causes, graph, space)

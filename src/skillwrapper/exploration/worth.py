@@ -23,8 +23,8 @@ class Weights:
 
     Attributes:
         unproven: newness of an attempt at a skill that never succeeded.
-        unmatched: an attempt that promises most, if the skill never succeeded with arguments of
-            such types.
+        promising: an attempt at such a skill that promises most, however little is new of it.
+        unmatched: the same if the skill never succeeded with arguments of such types.
         failing: newness where the model predicts a failure, times the entropy of how often that
             was wrong of late.
         least_failing: the least of that product.
@@ -38,7 +38,8 @@ class Weights:
     """
 
     unproven: float = 1.5
-    unmatched: float = 0.5
+    promising: float = 0.3
+    unmatched: float = 0.2
     failing: float = 0.4
     least_failing: float = 0.05
     working: float = 0.5
@@ -124,10 +125,9 @@ def weigh(
             alone = memory.new_roles(instance.skill, lookahead.roles, places)
             alone = np.maximum(alone, expected.alone[of_node, number])
             pairs = np.sqrt(expected.pairs[of_node, number])
-            # What tells the objects of such a skill apart may have no name yet.
-            untried = 1 / (1 + memory.failures[instance])
-            hope = memory.hope(instance.skill) * np.maximum(promise[of_node, number], untried)
-            new[:, number] = weights.unproven * np.maximum(0.7 * alone + 0.3 * pairs, hope)
+            hope = memory.hope(instance.skill) * promise[of_node, number]
+            newness = weights.unproven * (0.7 * alone + 0.3 * pairs)
+            new[:, number] = np.maximum(newness, weights.promising * hope)
         elif (kind := scene.kinds[number]) not in memory.proven:
             value = weights.unmatched * memory.hope(kind) ** 2 * promise[of_node, number]
             new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], value))
