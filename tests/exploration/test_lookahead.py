@@ -77,7 +77,7 @@ def test_new_roles_are_those_that_no_failure_had() -> None:
     memory.note(scene, Transition(SEEN, OPEN_LEFT, True, SEEN), predicted=None)
     roles, places = np.array([[UNTOUCHED, 0], [memory.roles[0], 0]]), np.array([0])
     assert memory.new_roles("Shut", roles, places).tolist() == [0.0, 1.0]
-    assert memory.new_signatures("Shut", roles, places).tolist() == [False, True]
+    assert memory.new_signatures(memory.seen["Shut"], roles, places).tolist() == [False, True]
     assert memory.signatures == [(UNTOUCHED,), (UNTOUCHED,)]
     assert memory.was_tried(SEEN.key, b"", SHUT_LEFT)
     assert not memory.was_tried(SEEN.key, b"", SHUT_RIGHT)

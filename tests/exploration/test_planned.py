@@ -52,3 +52,21 @@ def test_an_episode_ends_where_nothing_is_worth_a_try() -> None:
         stuck = explorer.next_skill(house.situation(left=1))
     assert stuck.reason == "all was tried here, and nothing leads away"
     assert house.done
+
+
+def test_where_all_seems_known_it_goes_elsewhere_or_does_what_it_rarely_did() -> None:
+    """States that look alike to the vocabulary may still differ."""
+    house = House()
+    explorer = PlannedExplorer(HOUSE, ExplorationSettings(), 3)
+    reasons = set()
+    for _ in range(300):
+        chosen = explorer.next_skill(house.situation())
+        if chosen.instance is None:
+            explorer.record(house.reset())
+            continue
+        reasons.add(chosen.reason)
+        house.run(chosen.instance)
+        if len(house.done) == 9:
+            explorer.record(house.reset())
+    assert "was tried most rarely; nothing seems worth more" in reasons
+    assert "drawn by chance to get elsewhere, as nothing seems new" in reasons

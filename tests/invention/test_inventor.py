@@ -479,3 +479,37 @@ def test_what_the_robot_says_changed_nothing_is_no_question() -> None:
     study = Study(notebook, [EMPTY], active=[ROUND])
     study.inventor.invent()
     assert study.proposer.asked == []
+
+
+LARGE = Predicate("large", ("robot",))
+
+
+def likeness() -> Notebook:
+    """A robot looks smaller as soon as it holds something, but not always."""
+    notebook = Notebook(KITCHEN)
+    notebook.success("empty(r) large(r)", "Take(r, a)", "held(a)")
+    notebook.success("empty(r) large(r) #1", "Take(r, a)", "held(a) large(r)")
+    notebook.failure("held(b)", "Take(r, a)")
+    return notebook
+
+
+def test_a_dormant_predicate_takes_the_place_of_a_poor_likeness() -> None:
+    study = Study(likeness(), active=[HELD, LARGE], dormant=[EMPTY])
+    fit = study.inventor.invent()
+    assert fit.inconsistencies == ()
+    assert (study.active, study.words.dormant) == (["held", "empty"], (LARGE,))
+    assert study.verdicts(Verdict.RETRACTED, Verdict.REVIVED) == ["large", "empty"]
+    assert study.proposer.asked == []
+
+
+def test_nothing_is_exchanged_that_leaves_as_much_inconsistent() -> None:
+    study = Study(likeness(), active=[HELD, LARGE], dormant=[SHINY])
+    study.inventor.invent()
+    assert "large" in study.active
+    assert study.proposer.asked
+
+
+def test_without_exchanges_the_model_is_asked() -> None:
+    study = Study(likeness(), active=[HELD, LARGE], dormant=[EMPTY], exchange=False)
+    assert study.inventor.invent().inconsistencies
+    assert study.proposer.asked

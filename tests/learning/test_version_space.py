@@ -99,6 +99,16 @@ def test_what_one_operator_needs_the_others_are_likely_to_need() -> None:
     assert off_another.probability[EMPTY_HAND] > 0.9
 
 
+def test_what_only_tells_operators_apart_is_not_passed_on() -> None:
+    """Crates that stand on nothing are lifted otherwise, which is no reason why others are not."""
+    notebook = barn("full(h)", TELLING)
+    alone = space(notebook).probability[ON_NOTHING]
+    notebook.success("on(a, b)", "Lift(h, a)", "full(h) held(a)")
+    off_another, off_the_ground = (space(notebook, number) for number in (0, 1))
+    assert ON_NOTHING in off_the_ground.proven
+    assert off_another.probability[ON_NOTHING] == pytest.approx(alone)
+
+
 def test_narrow_types_are_a_condition() -> None:
     frail = Variable("?crate_1", ("frail",))
     found = space(barn(crates="f"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,12 +10,13 @@ from numpy.typing import NDArray
 
 from skillwrapper.exploration.novelty import Features, Novelty, see_features
 from skillwrapper.exploration.promise import promise_of
-from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.grounding import FALSE, TRUE, AtomSpace, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.learning.predictions import attempts_of
 from skillwrapper.learning.version_space import VersionSpace, version_spaces
+from skillwrapper.transitions.tables import SkillTable
 from skillwrapper.world.skills import SkillInstance
 
 
@@ -30,6 +32,10 @@ class Expectations:
             types, but for a factor; else 0.
         alone_done: how new it is beside successes.
         pairs_done: the same by pairs.
+        untried: whether this very instance was never tried where the same was seen, 0 or 1; what
+            tells its objects from others may have no name yet.
+        unlike: how new the whole state is beside those in which the instance succeeded, by pairs of
+            what holds in it, if no success of its skill seems to change anything; else 0.
     """
 
     success: NDArray[np.float64]
@@ -38,6 +44,8 @@ class Expectations:
     promise: NDArray[np.float64]
     alone_done: NDArray[np.float64]
     pairs_done: NDArray[np.float64]
+    untried: NDArray[np.float64]
+    unlike: NDArray[np.float64]
 
 
 class SkillBeliefs:
@@ -55,6 +63,7 @@ class SkillBeliefs:
         self.spaces: tuple[VersionSpace, ...] = version_spaces(fit, skill, doubt=doubt)
         self._failures = self._seen(success=False)
         self._successes = self._seen(success=True)
+        self._tried = frozenset(self._attempted())
         self._worked = frozenset(self._kinds(success=True))
         self._failed = self._kinds(success=False)
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
@@ -62,7 +71,7 @@ class SkillBeliefs:
     def expect(
         self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
     ) -> NDArray[np.float64]:
-        """The figures of ``Expectations``, in its order (6, states, instances).
+        """The figures of ``Expectations``, in its order (8, states, instances).
 
         Args:
             space: the ground atoms of the whole vocabulary in the scene.
@@ -86,15 +95,16 @@ class SkillBeliefs:
         failing = np.ones(len(attempts))
         for version_space in self.spaces:
             failing *= 1 - version_space.success_probability(space, attempts)
-        figures = [1 - failing, *self._novelty(space, states, attempts)]
-        return np.stack(figures).reshape(6, len(states), len(instances))
+        novelty = self._novelty(space, states, attempts, instances)
+        figures = [1 - failing, *novelty, self._unlike(space, states, attempts, instances)]
+        return np.stack(figures).reshape(8, len(states), len(instances))
 
     def _novelty(
-        self, space: AtomSpace, states: Labels, attempts: Attempts
+        self, space: AtomSpace, states: Labels, attempts: Attempts, instances: list[SkillInstance]
     ) -> list[NDArray[np.float64]]:
         """Beside failures and beside successes; all is new beside nothing."""
         if not self.of_skill.predictions:
-            return [np.ones(len(attempts))] * 5
+            return [np.ones(len(attempts))] * 6
         useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
         columns = [space.column[atom] for atom in useful.atoms]
         looked_up = AbstractStates(states[:, columns])
@@ -102,7 +112,34 @@ class SkillBeliefs:
         seen = see_features(useful, useful_attempts, self._types)
         failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
         promise = self._promise(space, seen, attempts)
-        return [failed.alone, failed.pairs, promise, done.alone, done.pairs]
+        untried = self._untried(seen, attempts, instances)
+        return [failed.alone, failed.pairs, promise, done.alone, done.pairs, untried]
+
+    def _untried(
+        self, seen: Features, attempts: Attempts, instances: list[SkillInstance]
+    ) -> NDArray[np.float64]:
+        """Whether an instance was never tried where it saw the same (attempts,)."""
+        which = attempts.which.tolist()
+        keys = zip(
+            (instances[n] for n in which), map(bytes, np.packbits(seen, axis=1)), strict=True
+        )
+        return np.array([key not in self._tried for key in keys], dtype=np.float64)
+
+    def _unlike(
+        self, space: AtomSpace, states: Labels, attempts: Attempts, instances: list[SkillInstance]
+    ) -> NDArray[np.float64]:
+        """Of a skill that never seemed to change anything: it may have had nothing to act on."""
+        found = np.zeros((len(states), len(instances)))
+        if self.of_skill.unnoticed is not None:
+            useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
+            tables = [p.table for p in self.of_skill.predictions if p.table.space == useful]
+            seen = _values(states[:, [space.column[atom] for atom in useful.atoms]])
+            for number, instance in enumerate(instances):
+                rows = [table.before[_successes(table, instance)] for table in tables]
+                earlier = np.vstack([np.zeros((0, len(useful.atoms)), dtype=np.int8), *rows])
+                found[:, number] = Novelty.of(seen, _values(earlier)).pairs
+        values: NDArray[np.float64] = found[attempts.rows, attempts.which]
+        return values
 
     def _promise(self, space: AtomSpace, seen: Features, attempts: Attempts) -> NDArray[np.float64]:
         """Of attempts at the skill, or with such types, that never succeeded (attempts,)."""
@@ -129,6 +166,14 @@ class SkillBeliefs:
             for row in np.flatnonzero(table.success == success).tolist()
         ]
 
+    def _attempted(self) -> Iterator[tuple[SkillInstance, bytes]]:
+        """Every instance that was tried, with what it saw."""
+        for prediction in self.of_skill.predictions:
+            table = prediction.table
+            seen = np.packbits(see_features(table.space, attempts_of(table), self._types), axis=1)
+            for number, row in zip(table.which.tolist(), seen, strict=True):
+                yield table.instances[number], bytes(row)
+
     def _seen(self, *, success: bool) -> Features:
         """What earlier attempts saw (attempts, features)."""
         found = []
@@ -137,6 +182,18 @@ class SkillBeliefs:
             attempts = attempts_of(table, np.flatnonzero(table.success == success))
             found.append(see_features(table.space, attempts, self._types))
         return np.vstack(found) if found else np.zeros((0, 0), dtype=bool)
+
+
+def _values(states: Labels) -> Features:
+    """What holds and what does not in states (states, twice the atoms)."""
+    return np.hstack([states == TRUE, states == FALSE])
+
+
+def _successes(table: SkillTable, instance: SkillInstance) -> NDArray[np.bool_]:
+    """The successes of an instance (n,)."""
+    own = [number for number, other in enumerate(table.instances) if other == instance]
+    found: NDArray[np.bool_] = table.success & np.isin(table.which, own)
+    return found
 
 
 class Beliefs:
@@ -161,7 +218,7 @@ class Beliefs:
         doubt: float,
     ) -> Expectations:
         """What to expect of all instances of a scene in some states (states, atoms)."""
-        figures = np.zeros((6, len(states), len(instances)))
+        figures = np.zeros((8, len(states), len(instances)))
         for skill in fit.domain.skills:
             numbers = [n for n, i in enumerate(instances) if i.skill == skill.name]
             if numbers:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,7 +63,9 @@ class Memory:
         seen: the signatures that were tried, by skill.
         surprises: how often predictions were wrong.
         pursued: how often a cause was gone after, by skill and signature.
+        played: how often instances were tried, and with what roles of their arguments.
         failures: how often instances failed, and skills, also with the types of their arguments.
+        successes: how often skills succeeded.
         proven: the skills, with the types of their arguments, that ever succeeded.
         missed: how often the way to an attempt led elsewhere, since it was last made.
     """
@@ -74,7 +76,9 @@ class Memory:
         self._scenes: dict[Scene, SceneRoles] = {}
         self._failed: dict[str, set[tuple[int, int]]] = defaultdict(set)
         self._tried: dict[tuple[str, SkillInstance], bool] = {}
+        self.played: dict[SkillInstance, Counter[Signature]] = defaultdict(Counter)
         self.failures: Counter[str | Kind | SkillInstance] = Counter()
+        self.successes: Counter[str] = Counter()
         self.proven: set[Kind] = set()
         self._vain: set[tuple[bytes, SkillInstance]] = set()
         self._done: set[tuple[bytes, SkillInstance]] = set()
@@ -119,12 +123,14 @@ class Memory:
         signature = own.signature(self.roles, number)
         self.signatures.append(signature)
         self.seen[instance.skill].add(signature)
+        self.played[instance][signature] += 1
         self._tried[transition.before.key, instance] = transition.success
         if predicted is not None:
             self.surprises.note(predicted=predicted, success=transition.success)
         self._done.add((state, instance))
         if transition.success:
             self.roles = own.after(self.roles, number)
+            self.successes[instance.skill] += 1
             self.proven.add(own.kinds[number])
             self._vain.clear()
         else:
@@ -153,6 +159,10 @@ class Memory:
             what: a skill, or a skill with certain types of arguments.
         """
         return float(np.sqrt(_PATIENCE / (_PATIENCE + self.failures[what])))
+
+    def patience(self, skill: str) -> float:
+        """What patience is left, 0 to 1, with a skill that changes nothing whenever it succeeds."""
+        return float(np.sqrt(_PATIENCE / (_PATIENCE + self.successes[skill])))
 
     def pursue(
         self, causes: Iterable[Inconsistency], scene: SceneRoles, instance: SkillInstance
@@ -201,12 +211,18 @@ class Memory:
         return failed or (state, instance) in self._vain
 
     def new_signatures(
-        self, skill: str, roles: Roles, places: NDArray[np.intp]
+        self, tried: Collection[Signature], roles: Roles, places: NDArray[np.intp]
     ) -> NDArray[np.bool_]:
-        """Whether the skill was never tried with such roles of its arguments (nodes,)."""
+        """Whether roles of the arguments are none of those that were tried (nodes,).
+
+        Args:
+            tried: those of a skill (``seen``), or of an instance (``played``).
+            roles: of all objects (nodes, objects).
+            places: of the arguments among them.
+        """
         first, place = different_rows(roles[:, places])
         different = roles[np.ix_(first, places)].tolist()
-        new = np.array([tuple(row) not in self.seen[skill] for row in different], dtype=bool)
+        new = np.array([tuple(row) not in tried for row in different], dtype=bool)
         return new[place]
 
     def new_roles(self, skill: str, roles: Roles, places: NDArray[np.intp]) -> NDArray[np.float64]:

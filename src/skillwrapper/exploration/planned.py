@@ -189,14 +189,29 @@ class PlannedExplorer:
         """What comes of a thought."""
         if thought.is_idle and thought.is_stuck and situation.done:
             return NextSkill(None, "all was tried here, and nothing leads away")
+        self._target = None
+        if thought.is_idle:
+            return self._wander(thought)
         scores = thought.scores + 1e-6 * self._chance.random(len(thought.scene.instances))
         node, number = (int(n) for n in np.unravel_index(np.argmax(scores), scores.shape))
         first = [*thought.lookahead.path(node), number][0]
         self._target = thought.scene.instances[number] if node else None
-        reason = "drawn by chance, as nothing within reach seems worth a try"
-        if not thought.is_idle:
-            reason = self._reason(situation, thought, node, number)
+        reason = self._reason(situation, thought, node, number)
         return NextSkill(thought.scene.instances[first], reason)
+
+    def _wander(self, thought: Thought) -> NextSkill:
+        """Every other time a skill that surely works, else one that was tried most rarely.
+
+        Where all seems known, states that look alike to the vocabulary may still differ.
+        """
+        instances = thought.scene.instances
+        sure = [instance for instance in instances if thought.is_predicted(instance)]
+        if sure and self._chance.random() < 0.5:
+            chosen = sure[int(self._chance.integers(len(sure)))]
+            return NextSkill(chosen, "drawn by chance to get elsewhere, as nothing seems new")
+        times = np.array([self._memory.played[instance].total() for instance in instances])
+        number = int(np.argmin(times + self._chance.random(len(times))))
+        return NextSkill(instances[number], "was tried most rarely; nothing seems worth more")
 
     def follow(self, situation: Situation, sequence: Sequence[SkillInstance]) -> Values:
         """What each skill of a sequence is worth (steps,), if the model is right on the way."""

@@ -16,6 +16,9 @@ from skillwrapper.learning.inconsistencies import Inconsistency
 
 Values = NDArray[np.float64]
 
+_PLAYED = 0.4
+"""What new roles of an instance's own arguments count beside what it sees of them."""
+
 
 @dataclass(frozen=True)
 class Weights:
@@ -25,6 +28,9 @@ class Weights:
         unproven: newness of an attempt at a skill that never succeeded.
         promising: an attempt at such a skill that promises most, however little is new of it.
         unmatched: the same if the skill never succeeded with arguments of such types.
+        untried: an instance that was never tried where it sees what others saw, as a share of the
+            hope for its skill.
+        silent: a skill that never seemed to change anything, in a state that is as new as can be.
         failing: newness where the model predicts a failure, times the entropy of how often that
             was wrong of late.
         least_failing: the least of that product.
@@ -37,9 +43,11 @@ class Weights:
         slow_fading: the same after every time that any cause of the skill was.
     """
 
-    unproven: float = 1.5
-    promising: float = 0.3
+    unproven: float = 2.0
+    promising: float = 1.0
     unmatched: float = 0.2
+    untried: float = 0.05
+    silent: float = 0.5
     failing: float = 0.4
     least_failing: float = 0.05
     working: float = 0.5
@@ -125,13 +133,19 @@ def weigh(
             alone = memory.new_roles(instance.skill, lookahead.roles, places)
             alone = np.maximum(alone, expected.alone[of_node, number])
             pairs = np.sqrt(expected.pairs[of_node, number])
-            hope = memory.hope(instance.skill) * promise[of_node, number]
+            hope = memory.hope(instance.skill) * promise[of_node, number] ** 2
             newness = weights.unproven * (0.7 * alone + 0.3 * pairs)
             new[:, number] = np.maximum(newness, weights.promising * hope)
         elif (kind := scene.kinds[number]) not in memory.proven:
             value = weights.unmatched * memory.hope(kind) ** 2 * promise[of_node, number]
             new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], value))
-        unseen = memory.new_signatures(instance.skill, lookahead.roles, places)
+        played = memory.new_signatures(memory.played[instance], lookahead.roles, places)
+        untried = np.maximum(expected.untried[of_node, number], _PLAYED * played)
+        untried *= weights.untried * memory.hope(instance.skill)
+        new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], untried))
+        unlike = memory.patience(instance.skill) * np.sqrt(expected.unlike[of_node, number])
+        new[:, number] = np.where(sure[:, number], weights.silent * unlike, new[:, number])
+        unseen = memory.new_signatures(memory.seen[instance.skill], lookahead.roles, places)
         each = np.where(sure[:, number], weights.covered, weights.covered_failing)
         cover[:, number] = each * unseen
     return Worth(

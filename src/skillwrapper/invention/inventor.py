@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Protocol
 
 from skillwrapper.invention.decisions import CandidateDecision, Verdict
+from skillwrapper.invention.exchanges import find_exchange
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.pruning import find_burdens
 from skillwrapper.invention.rejections import Rejections
@@ -240,6 +241,8 @@ class Inventor:
             return
         if attempt == 0 and self._settings.widen and self._try_wider(inconsistency, fit):
             return
+        if attempt == 0 and self._settings.exchange and self._try_exchange(inconsistency):
+            return
         number = self._questions[inconsistency.identity]
         self._questions[inconsistency.identity] += 1
         pairs = inconsistency.pairs if self._settings.rotate else (inconsistency,)
@@ -264,6 +267,23 @@ class Inventor:
         rejected = self._rejections.of(inconsistency.identity)
         fresh = [p for p in wider if p not in rejected]
         return bool(fresh) and self._try(inconsistency, fit, fresh, dormant=False)
+
+    def _try_exchange(self, inconsistency: Inconsistency) -> bool:
+        """Whether it helps to take a dormant predicate in place of an active one."""
+        if inconsistency.kind is InconsistencyKind.UNNOTICED:
+            return False
+        exchange = find_exchange(self._fitter, self._vocabulary, inconsistency)
+        if exchange is None:
+            return False
+        old, new = exchange.dormant, exchange.active
+        self._vocabulary.set_dormant(old)
+        self._vocabulary.accept(new)
+        self._postponed.clear()
+        reason = f"less is inconsistent with {new.name} in its place"
+        self._listener(CandidateDecision(Verdict.RETRACTED, old, reason, inconsistency))
+        reason = f"resolves the inconsistency in place of {old.name}"
+        self._listener(CandidateDecision(Verdict.REVIVED, new, reason, inconsistency))
+        return True
 
     def _try(
         self,

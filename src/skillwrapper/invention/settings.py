@@ -102,6 +102,11 @@ class LearningSettings(LearnerSettings):
         description="whether the vocabulary of an earlier iteration is taken up again if it "
         "leaves less inconsistent (D9)",
     )
+    exchange: bool = Field(
+        default=True,
+        description="whether a dormant predicate may take the place of an active one, before the "
+        "model is asked, if that leaves less inconsistent (D9)",
+    )
     max_trials: int = Field(
         default=150,
         ge=0,

@@ -164,43 +164,62 @@ def version_spaces(
     """
     prior, of_skill = prior or Prior(), fit.skill(skill)
     evidence = [_Evidence.of(fit, learned, of_skill) for learned in of_skill.operators]
-    alone = [e.weigh([prior.of(c) for c in e.conditions], doubt) for e in evidence]
-    if len(alone) < 2:
-        return tuple(alone)
+    own_priors = [[prior.of(c) for c in e.conditions] for e in evidence]
+    if len(evidence) < 2:
+        return tuple(e.weigh(own, doubt) for e, own in zip(evidence, own_priors, strict=True))
+    # What only tells one operator from another says nothing of whether the skill works.
+    failing = [
+        e.weigh(own, doubt, failures_only=True) for e, own in zip(evidence, own_priors, strict=True)
+    ]
     return tuple(
-        own.weigh(_pooled(prior, alone, number), doubt) for number, own in enumerate(evidence)
+        own.weigh(_pooled(prior, failing, number), doubt) for number, own in enumerate(evidence)
     )
 
 
 @dataclass(frozen=True, eq=False)
 class _Evidence:
-    """Counterexamples of an operator: transitions where it must not apply."""
+    """Counterexamples of an operator: transitions where it must not apply.
+
+    Attributes:
+        operator: the operator.
+        conditions: its conditions.
+        narrowed: the parameters whose types are among them.
+        scenes: of each scene what is unmet in them.
+        failures: the same of those of them that failed.
+    """
 
     operator: Operator
     conditions: tuple[Condition, ...]
     narrowed: frozenset[Variable]
     scenes: tuple[UnmetConditions, ...]
+    failures: tuple[UnmetConditions, ...]
 
     @classmethod
     def of(cls, fit: Fit, learned: LearnedOperator, of_skill: SkillFit) -> _Evidence:
         signatures = {p.name: p.types for p in fit.predicates}
         narrowed = frozenset(narrowed_types(fit.domain, signatures, learned.operator))
         scenes: list[UnmetConditions] = []
+        failures: list[UnmetConditions] = []
         conditions: tuple[Condition, ...] = ()
         for prediction in of_skill.predictions:
             table = prediction.table
             indexed = IndexedOperator(learned.operator, table.space, narrowed)
-            rows = np.flatnonzero(~np.isin(table.ids, learned.cluster.ids))
-            scenes.append(UnmetConditions.of(indexed, attempts_of(table, rows)))
+            others = ~np.isin(table.ids, learned.cluster.ids)
+            for found, rows in ((scenes, others), (failures, others & ~table.success)):
+                attempts = attempts_of(table, np.flatnonzero(rows))
+                found.append(UnmetConditions.of(indexed, attempts))
             conditions = indexed.conditions
-        return cls(learned.operator, conditions, narrowed, tuple(scenes))
+        return cls(learned.operator, conditions, narrowed, tuple(scenes), tuple(failures))
 
-    def weigh(self, prior: Sequence[float], doubt: float) -> VersionSpace:
+    def weigh(
+        self, prior: Sequence[float], doubt: float, *, failures_only: bool = False
+    ) -> VersionSpace:
         """Weigh all hypotheses by a prior of every condition and by the counterexamples."""
         chances = np.array(prior, dtype=np.float64)
-        needed, weights = self._hypotheses(chances)
+        counterexamples = self.failures if failures_only else self.scenes
+        needed, weights = self._hypotheses(chances, counterexamples)
         against = np.zeros(len(needed), dtype=np.intp)
-        for unmet in self.scenes:
+        for unmet in counterexamples:
             times = np.bincount(unmet.family[unmet.family >= 0], minlength=len(unmet.families))
             against += np.minimum(times, _REPETITIONS) @ unmet.excused(needed)
         weights = weights * float(doubt) ** (against - against.min())
@@ -214,7 +233,7 @@ class _Evidence:
         )
 
     def _hypotheses(
-        self, chances: NDArray[np.float64]
+        self, chances: NDArray[np.float64], counterexamples: Sequence[UnmetConditions]
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
         """Parts of the conditions (hypotheses, conditions), with their weights beforehand."""
         size = len(self.conditions)
@@ -223,13 +242,14 @@ class _Evidence:
             return needed, np.where(needed, chances, 1 - chances).prod(axis=1)
         drawn = np.random.default_rng(0).random((_DRAWN, size)) < chances
         needed = np.vstack([drawn, np.ones((1, size), dtype=bool), ~np.eye(size, dtype=bool)])
-        return needed | self._surely_needed, np.where(np.arange(len(needed)) < _DRAWN, 1.0, 0.2)
+        return needed | self._surely_needed(counterexamples), np.where(
+            np.arange(len(needed)) < _DRAWN, 1.0, 0.2
+        )
 
-    @property
-    def _surely_needed(self) -> NDArray[np.bool_]:
+    def _surely_needed(self, counterexamples: Sequence[UnmetConditions]) -> NDArray[np.bool_]:
         """Conditions (conditions,) that a counterexample leaves as the only explanation."""
         found = np.zeros(len(self.conditions), dtype=bool)
-        for unmet in self.scenes:
+        for unmet in counterexamples:
             single = unmet.families[(unmet.families[:, 1:] < 0).all(axis=1), 0]
             sets = unmet.sets[single]
             found |= sets[sets.sum(axis=1) == 1].any(axis=0)
