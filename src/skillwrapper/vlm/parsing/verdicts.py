@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from enum import Enum, StrEnum
 from typing import NamedTuple
 
+from skillwrapper.vlm.parsing.languages import MARKS_OF_SCRIPTS, words_for
 from skillwrapper.vlm.parsing.names import words_of
 
 
@@ -46,24 +47,16 @@ class Said(Enum):
 
 Reading = Verdict | Said
 
-_TRUE = (
-    "true yes holds hold correct satisfied affirmative fulfilled met case"
-    " 真 是 对 成立 正确 正しい はい vrai oui wahr ja verdadero sí vero"
-    " да верно истина sim verdadeiro 예 네 참 evet doğru tak prawda waar sant sann ano pravda"
-    " نعم صحيح có đúng"
-)
-_FALSE = (
-    "false no untrue incorrect unsatisfied wrong"
-    " 假 否 错 错误 不成立 不正确 不是 偽 いいえ faux non falsch nein falso"
-    " нет неверно ложь não 아니요 아니오 거짓 hay\u0131r yanl\u0131ş nie fałsz nee onwaar falskt"
-    " nepravda خطأ خاطئ không sai"
-)
+_TRUE = "true yes holds hold correct satisfied affirmative fulfilled met case"
+_FALSE = "false no untrue incorrect unsatisfied wrong"
 _UNSURE = (
     "unsure unknown uncertain unclear undetermined indeterminate undecided ambiguous maybe possibly"
-    " perhaps none null n/a na undeterminable 不确定 未知 不明 неизвестно неясно"
-    " desconocido desconhecido inconnu unbekannt unklar unsicher"
+    " perhaps none null n/a na undeterminable"
 )
 _WORDS: dict[str, Verdict] = {
+    **dict.fromkeys(words_for("true"), Verdict(True)),
+    **dict.fromkeys(words_for("false"), Verdict(False)),
+    **dict.fromkeys(words_for("unsure"), Verdict(None)),
     **{word: Verdict(True) for word in _TRUE.split()},
     **{word: Verdict(False) for word in _FALSE.split()},
     **{word: Verdict(None) for word in _UNSURE.split()},
@@ -78,14 +71,13 @@ _WORDS: dict[str, Verdict] = {
     "☑": Verdict(True, Family.BOX),
     "☐": Verdict(False, Family.BOX),
 }
-_ALONE = frozenset(
-    words_of(
-        "yes no met hold right wrong none na ja non oui 是 否 да нет sim tak nie nee sant sai có"
-    )
-)
+_FOREIGN = frozenset[str]().union(*map(words_for, ("true", "false", "unsure")))
+_ALONE = _FOREIGN.union(words_of("yes no met hold right wrong none na"))
 """Words that are verdicts only where they stand for themselves: "no item" is none."""
-_NOT = frozenset(words_of("not isn't isnt aren't doesn't doesnt don't never wasn't ain't ¬ 不"))
-_SMALL = frozenset(
+_NOT = words_for("negation").union(
+    words_of("not isn't isnt aren't doesn't doesnt don't never wasn't ain't ¬")
+)
+_SMALL = words_for("small").union(
     words_of(
         "is are be being was the a an statement atom predicate grounding fact this that it its "
         "it's therefore thus hence so answer value label verdict truth result conclusion status "
@@ -97,9 +89,9 @@ _SMALL = frozenset(
 _NOUNS = frozenset(
     words_of("statements atoms predicates groundings facts ones following all grounded these")
 )
-_REASON = frozenset(
-    words_of("because since as for given due the it there i based according in here")
-)
+_ENDINGS = words_for("ending")
+_CAUSE = words_for("reason").union(words_of("because since as for given due based according"))
+_REASON = _CAUSE.union(words_of("the it there i in here"))
 _CONDITION = frozenset(
     words_of(
         "if unless when whenever only except provided assuming or until once iff whether than "
@@ -114,8 +106,10 @@ _CORRECTION = frozenset(
 )
 _CHATTER = frozenset(words_of("here let sure certainly of okay ok below i'll i'd thanks as now"))
 _OTHERS = frozenset(["others", "other", "rest", "remaining", "everything", "else"])
-_SUPPOSED = frozenset(words_of("if unless whether assuming suppose supposing either neither when"))
-_LINKS = frozenset(("and", "or", "nor", "&", "/", "and/or", "as well as"))
+_SUPPOSED = words_for("condition").union(
+    words_of("if unless whether assuming suppose supposing either neither when")
+)
+_LINKS = words_for("link").union(("and", "or", "nor", "&", "/", "and/or", "as well as"))
 _UNSURE_PHRASE = re.compile(
     r"\b(?:(?:can(?:not|'t| not)|could(?: not|n't)|unable|impossible|hard|difficult)"
     r"(?: be)?(?: to)? (?:tell|told|say|said|see|seen|determined?|judged?|decided?|assess(?:ed)?"
@@ -130,12 +124,14 @@ _CHOICE = re.compile(
 )
 _SEGMENT = re.compile(r"[,;:|()\[\]{}\"=]|(?:(?<= )|^)-{1,3}(?= |$)|-{0,2}>|[.!](?= |$)")
 _MARKS = "".join(word for word in _WORDS if not word.isalnum() and len(word) == 1)
-_WORD = re.compile(rf"n/a|[^\W_]++(?:['-][^\W_]++){{0,8}}|[{_MARKS}¬]", re.I)
+_LETTER = rf"(?:[^\W_]|[{MARKS_OF_SCRIPTS}])"
+_WORD = re.compile(rf"n/a|{_LETTER}++(?:['-]{_LETTER}++){{0,8}}|[{_MARKS}¬]", re.I)
 _SENTENCE_END = re.compile(r"[.;!?](?= |$)")
 _BOX = re.compile(r"\[ ?([xX✓✔]?) ?\]")
 _NOT_IN_FRONT = re.compile(r"(?:\bnot |[¬~]|(?:^|(?<=[ (]))!) ?\(?$", re.IGNORECASE)
 _LONGEST = 400
 _PHRASE_STARTS_BY = 24
+_CLAUSE, _FEW = 60, 3
 
 
 def is_verdict(word: str) -> bool:
@@ -293,14 +289,15 @@ def _phrase(words: Sequence[str], *, in_front: bool = False) -> Reading:
     negated = False
     for number, word in enumerate(words):
         rest = words[number + 1 :]
-        if word in _WORDS and rest[:1] != ["longer"]:
+        is_negation = word in _NOT and bool(rest)
+        if word in _WORDS and rest[:1] != ["longer"] and not is_negation:
             verdict = _WORDS[word]
             if in_front and (
                 verdict.family in {Family.LETTER, Family.CROSS} or not _SMALL.issuperset(rest)
             ):
                 return Said.NOTHING
             return _judged(word, verdict, rest, negated=negated)
-        if word in _NOT or word == "no":
+        if is_negation or word in _NOT or word == "no":
             negated = not negated
         elif word.isdigit() and all(w.isdigit() for w in words):
             return Said.NUMBER
@@ -311,9 +308,10 @@ def _phrase(words: Sequence[str], *, in_front: bool = False) -> Reading:
 
 def _judged(word: str, verdict: Verdict, rest: Sequence[str], *, negated: bool) -> Reading:
     """A verdict with what stands behind it in the same piece."""
+    rest = [] if _ENDINGS.issuperset(rest) else rest
     following = _WORDS.get(rest[0], verdict) if rest else verdict
     depends = _CONDITION.intersection(rest[:1]) or {"if", "unless", "or"}.intersection(rest[:4])
-    if "?" in rest or depends or following.value is not verdict.value:
+    if "?" in rest or depends or following.value is not verdict.value or _is_taken_back(rest):
         return Said.AMBIGUOUS
     if rest and verdict.family not in _STRONG:
         return Said.NUMBER if verdict.family is Family.DIGIT else Said.NOTHING
@@ -324,8 +322,19 @@ def _judged(word: str, verdict: Verdict, rest: Sequence[str], *, negated: bool) 
     return Verdict(not verdict.value) if negated else verdict
 
 
+def _is_taken_back(rest: Sequence[str]) -> bool:
+    """Whether words behind a verdict deny it, rather than giving reasons: ``true it is not``."""
+    reasons = next((n for n, word in enumerate(rest) if word in _CAUSE), len(rest))
+    return not _NOT.isdisjoint(rest[:reasons])
+
+
 def _contradicts(first: Verdict, said: Reading, segment: str) -> bool:
-    """Whether a later piece takes back or changes what was said first."""
+    """Whether a later piece takes back or changes what was said first: ``да, но нет``."""
     if isinstance(said, Verdict):
         return said.family in _STRONG and said.value is not first.value
-    return said is Said.AMBIGUOUS or not _CORRECTION.isdisjoint(_words(segment[:20])[:1])
+    words = _words(segment[:_CLAUSE])
+    others = {word for word in words if _WORDS.get(word, first).value is not first.value}
+    ending = set(words[-1:]) if len(words) <= _FEW else set()
+    denied = first.value is True and not _NOT.isdisjoint(ending)
+    begins = set(words[:1]) & (others & _FOREIGN | _CORRECTION)
+    return said is Said.AMBIGUOUS or bool(begins or ending & others) or denied
