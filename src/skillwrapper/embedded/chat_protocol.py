@@ -6,6 +6,7 @@ import base64
 import binascii
 import hashlib
 import json
+import re
 from typing import Any
 
 from skillwrapper.errors import UserError
@@ -60,6 +61,27 @@ def in_reasoning(model: str, reply: ModelReply) -> dict[str, Any]:
     """The body of an answer in the field that is meant for reasoning."""
     message = {"role": "assistant", "content": "", "reasoning_content": reply.text}
     return _body(model, message, reply)
+
+
+def in_tool_call(model: str, reply: ModelReply) -> dict[str, Any]:
+    """The body of an answer as the argument of a tool."""
+    function = {"name": "answer", "arguments": json.dumps({"text": reply.text})}
+    call = {"id": "call_0", "type": "function", "function": function}
+    message = {"role": "assistant", "content": None, "tool_calls": [call]}
+    return _body(model, message, reply, "tool_calls")
+
+
+def in_events(model: str, reply: ModelReply) -> str:
+    """The body of an answer as a stream of events, a word in each."""
+    words = re.findall(r"\s*\S+|\s+$", reply.text)
+    chunks: list[dict[str, Any]] = [
+        {"choices": [{"index": 0, "delta": {"content": word}, "finish_reason": None}]}
+        for word in words
+    ]
+    usage = _body(model, {}, reply)["usage"]
+    chunks.append({"choices": [{"index": 0, "delta": {}, "finish_reason": "stop"}], "usage": usage})
+    events = (f"data: {json.dumps({'model': model, **chunk})}\n\n" for chunk in chunks)
+    return "".join((": keep-alive\n\n", *events, "data: [DONE]\n\n"))
 
 
 def refusal(model: str, reply: ModelReply) -> dict[str, Any]:

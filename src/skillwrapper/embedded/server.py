@@ -25,8 +25,10 @@ from skillwrapper.embedded.chat_protocol import (
     BadChatRequestError,
     completion,
     error_body,
+    in_events,
     in_parts,
     in_reasoning,
+    in_tool_call,
     read_request,
     refusal,
     without_choice,
@@ -184,7 +186,11 @@ class _Service:
             faults.EMPTY: lambda: without_choice(name, reply),
             faults.CONTENT_PARTS: lambda: in_parts(name, reply),
             faults.REASONING_FIELD: lambda: in_reasoning(name, reply),
+            faults.TOOL_CALL: lambda: in_tool_call(name, reply),
         }
+        if fault in {faults.STREAMED, faults.STREAM_CUT}:
+            share = 0.5 if fault == faults.STREAM_CUT else 1.0
+            return _Answer(200, in_events(name, reply), share=share)
         if fault in bodies:
             return _Answer(200, bodies[fault]())
         body = completion(name, reply, FINISH_REASONS.get(fault or "", "stop"))

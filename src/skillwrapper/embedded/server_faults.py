@@ -17,6 +17,9 @@ RATE_LIMIT_DATE, DRIP, CUT_OFF, CUT_OFF_THINKING = (
     "rate-limit-date", "drip", "cut-off", "cut-off-thinking",
 )  # fmt: skip
 CONTENT_PARTS, REASONING_FIELD, FILTERED = "content-parts", "reasoning-field", "filtered"
+STREAMED, STREAM_CUT, BROKEN_OFF, TOOL_CALL = (
+    "streamed", "stream-cut", "broken-off", "tool-call",
+)  # fmt: skip
 KEY_IN_ERROR, KEY_IN_REPLY = "key-in-error", "key-in-reply"
 ALL_TRUE, ALL_FALSE, DEAF = "all-true", "all-false", "deaf"
 
@@ -40,6 +43,10 @@ FAULTS: Mapping[str, str] = MappingProxyType(
         CUT_OFF_THINKING: "no answer, finish reason length",
         CONTENT_PARTS: "the answer as a list of parts",
         REASONING_FIELD: "the answer in the field for reasoning",
+        STREAMED: "the answer as a stream of events, which nobody asked for",
+        STREAM_CUT: "half of such a stream",
+        BROKEN_OFF: "half of the answer, finish reason error",
+        TOOL_CALL: "the answer as the argument of a tool which nobody offered",
         KEY_IN_ERROR: "status 401 that repeats the key",
         KEY_IN_REPLY: "an answer that repeats the key",
         ALL_TRUE: "every label is true, whatever is shown",

@@ -15,6 +15,7 @@ FINISH_REASONS: Mapping[str, str] = MappingProxyType(
         faults.CUT_OFF: "length",
         faults.CUT_OFF_THINKING: "length",
         faults.FILTERED: "content_filter",
+        faults.BROKEN_OFF: "error",
     }
 )
 """The finish reason of replies with a fault; that of others is ``stop``."""
@@ -30,7 +31,7 @@ def spoilt(reply: ModelReply, fault: str | None, authorization: str) -> ModelRep
 def _text(text: str, fault: str | None, authorization: str) -> str:
     if fault == faults.NONSENSE:
         return _NONSENSE
-    if fault == faults.CUT_OFF:
+    if fault in {faults.CUT_OFF, faults.BROKEN_OFF}:
         return text[: len(text) // 2]
     if fault in {faults.CUT_OFF_THINKING, faults.FILTERED}:
         return ""

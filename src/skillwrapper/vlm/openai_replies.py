@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-_CUT_OFF = frozenset({"length", "max_tokens", "max_output_tokens", "model_length"})
-_REFUSED = frozenset(
-    {"content_filter", "content-filter", "safety", "refusal", "prohibited_content", "blocklist",
-     "recitation", "spii", "image_safety", "guardrail_intervened", "sensitive"}
+from skillwrapper.vlm.streamed_replies import BrokenStreamError, assembled, is_stream
+
+_CUT_OFF = frozenset(
+    {"length", "max_tokens", "max_output_tokens", "model_length", "max_length", "max_new_tokens",
+     "token_limit", "incomplete", "model_context_window_exceeded", "context_length_exceeded"}
 )  # fmt: skip
+_REFUSED = frozenset(
+    {"content_filter", "content-filter", "content_filtered", "filtered", "safety", "refusal",
+     "refused", "prohibited_content", "blocklist", "recitation", "spii", "image_safety",
+     "guardrail_intervened", "guardrails", "sensitive", "moderation", "content_policy",
+     "policy_violation", "unsafe", "error_toxic"}
+)  # fmt: skip
+_BROKEN_OFF = frozenset(
+    {"error", "abort", "aborted", "cancelled", "canceled", "network_error", "timeout", "max_time",
+     "insufficient_system_resource", "engine_overloaded", "repetition", "unknown_error"}
+)  # fmt: skip
+"""The server could not end the answer: what there is of it is none."""
 _REASONING_FIELDS = ("reasoning_content", "reasoning", "thinking", "reasoning_text")
 _REASONING_PARTS = frozenset({"thinking", "reasoning", "redacted_thinking"})
+_A_WORD = re.compile(r"[\w-]*+")
 _TEXT_KEYS = ("text", "content", "value", "output_text")
 _DEEPEST = 4
 
@@ -87,6 +102,8 @@ def read_completion(body: bytes) -> Completion:
         raise NoCompletionError("a choice that is no object", is_broken=True)
     if choice.get("error"):
         raise _reported(choice["error"])
+    if _reason(choice).lower() in _BROKEN_OFF:
+        raise NoCompletionError(f"an answer that broke off ({_reason(choice)})", is_broken=True)
     return _of_choice(choice, *tokens)
 
 
@@ -96,19 +113,55 @@ def _of_choice(choice: dict[str, Any], tokens_in: int | None, tokens_out: int | 
         message = {"content": choice["text"]}
     if not isinstance(message, dict):
         raise NoCompletionError("a choice without a message", is_broken=True)
-    reason = str(choice.get("finish_reason") or choice.get("native_finish_reason") or "none")
+    reason = _reason(choice)
     text, refusal = _text(message.get("content")), _text(message.get("refusal"))
     refusal = refusal or _refusal_part(message.get("content"))
     cut_off = reason.lower() in _CUT_OFF
     if not text.strip() and not refusal and not cut_off:
-        text = next(filter(str.strip, (_text(message.get(f)) for f in _REASONING_FIELDS)), "")
+        others = (_tool_calls(message), *(_text(message.get(f)) for f in _REASONING_FIELDS))
+        text = next(filter(str.strip, others), "")
     refused = bool(refusal) or reason.lower() in _REFUSED
     return Completion(
         text, (refusal or text) if refused else None, cut_off, reason, tokens_in, tokens_out
     )
 
 
+def _reason(choice: Mapping[str, Any]) -> str:
+    return str(choice.get("finish_reason") or choice.get("native_finish_reason") or "none")
+
+
+def _tool_calls(message: Mapping[str, Any]) -> str:
+    """The calls of a model that answers with tools which nobody offered, a line for each."""
+    calls = message.get("tool_calls")
+    functions = [
+        call.get("function", call)
+        for call in (calls if isinstance(calls, list) else ())
+        if isinstance(call, dict)
+    ] or [message.get("function_call")]
+    written = (_call(function) for function in functions if isinstance(function, dict))
+    return "\n".join(filter(None, written))
+
+
+def _call(function: Mapping[str, Any]) -> str:
+    """Name and arguments as one object, of which the arguments often come as a string."""
+    name, arguments = function.get("name"), function.get("arguments", {})
+    if isinstance(arguments, str):
+        try:
+            arguments = json.loads(arguments or "{}")
+        except (ValueError, RecursionError):
+            return ""
+    values = list(arguments.values()) if isinstance(arguments, dict) else [arguments]
+    if len(values) == 1 and isinstance(values[0], str) and not _A_WORD.fullmatch(values[0]):
+        return values[0]  # the answer itself, and no name of an object
+    return json.dumps({"name": name, "arguments": arguments}) if isinstance(name, str) else ""
+
+
 def _json_object(body: bytes) -> dict[str, Any]:
+    if is_stream(body):
+        try:
+            return assembled(body)
+        except BrokenStreamError:
+            raise NoCompletionError("a stream that broke off", is_broken=True) from None
     try:
         data = json.loads(body)
     except (ValueError, RecursionError):
