@@ -26,7 +26,9 @@ class Walker:
         self._true = true
         self._chance = np.random.default_rng(seed)
         self._problems = [
-            (_initial(path), read_objects(path)) for path in gym.problem_paths(domain, "learning")
+            (_initial(path), read_objects(path))
+            for path in gym.problem_paths(domain, "learning")
+            if path.stat().st_size  # AMLGym 1.0.13 ships seven empty files of visitall
         ]
 
     def walk(self, number: int, steps: int, failing: float = 0.0) -> Iterator[Step]:

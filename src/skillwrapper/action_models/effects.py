@@ -42,6 +42,7 @@ def find_effects(table: ViewTable, atoms: Sequence[LiftedAtom]) -> tuple[Effect,
     seen = _Changes(table.alone[done], table.before[done], table.after[done], table.same[done])
     found: list[Effect] = []
     adds = _added(seen)
+    adds |= _restored(seen, adds)
     deletes = _deleted(seen, adds)
     for positive, chosen in ((True, adds), (False, deletes)):
         for number in np.flatnonzero(chosen).tolist():
@@ -57,12 +58,29 @@ def _added(seen: _Changes) -> Bits:
     return _explain(became & ~seen.alone, seen, surely, ~some(~seen.after))
 
 
+def _restored(seen: _Changes, adds: Bits) -> Bits:
+    """What must be added too, as it says the same as what is deleted and yet stayed true."""
+    ceased = some(seen.before & ~seen.after & seen.alone)
+    deletes = ceased & ~some(seen.before & seen.after & seen.alone)
+    stayed = seen.before & seen.after & ~seen.alone & deletes
+    return _explain(stayed, seen, adds, ~some(~seen.after) & ~deletes)
+
+
 def _deleted(seen: _Changes, adds: Bits) -> Bits:
-    """The same for what became false; what stayed true although it stands alone is not deleted."""
+    """The same for what became false; what stayed true without an addition is not deleted."""
     ceased = seen.before & ~seen.after
     surely = some(ceased & seen.alone)
-    stayed = some(seen.after & seen.alone)
+    stayed = some(seen.after & ~_shares(seen, adds))
     return _explain(ceased & ~seen.alone, seen, surely, ~stayed & ~adds)
+
+
+def _shares(seen: _Changes, chosen: Bits) -> Bits:
+    """Whether an atom says the same as a chosen one (views, atoms)."""
+    first = np.zeros(seen.same.shape, dtype=bool)
+    rows = np.arange(len(seen.same))[:, np.newaxis]
+    np.logical_or.at(first, (rows, seen.same[:, chosen]), True)
+    shares: Bits = np.take_along_axis(first, seen.same, axis=1)
+    return shares
 
 
 def _explain(changed: Bits, seen: _Changes, surely: Bits, possible: Bits) -> Bits:

@@ -11,6 +11,7 @@ from skillwrapper.action_models.settings import ActionModelSettings
 from skillwrapper.action_models.skeleton import DomainSkeleton
 from skillwrapper.action_models.steps import Step
 from skillwrapper.action_models.views import ActionViews, ViewTable
+from skillwrapper.action_models.witnesses import Witnesses
 
 
 class ActionModelLearner:
@@ -26,6 +27,7 @@ class ActionModelLearner:
     ) -> None:
         self.skeleton = skeleton
         self.settings = settings or ActionModelSettings()
+        self._witnesses = Witnesses(skeleton, self.settings.witness_states)
         self._views = {
             name: ActionViews(skeleton, action) for name, action in skeleton.actions.items()
         }
@@ -33,23 +35,33 @@ class ActionModelLearner:
     def add(self, steps: Iterable[Step]) -> None:
         """Take steps in; each must fit the domain (``steps.check_step``)."""
         for step in steps:
+            self._witnesses.add(step)
             self._views[step.action].add(step)
 
     def learn(self) -> DomainModel:
         """The model of all steps so far."""
         tables = {name: views.table() for name, views in self._views.items()}
-        seen = frozenset[str]().union(*(self._views[n].seen(t) for n, t in tables.items()))
-        models = {n: self._learn(views, tables[n], seen) for n, views in self._views.items()}
+        seen = self._witnesses.predicates.union(
+            *(self._views[n].seen(t) for n, t in tables.items())
+        )
+        dynamic = frozenset[str]().union(*(self._views[n].changed(t) for n, t in tables.items()))
+        models = {
+            n: self._learn(views, tables[n], seen, dynamic) for n, views in self._views.items()
+        }
         known = {name: model for name, model in models.items() if model is not None}
         return DomainModel(self.skeleton, known)
 
     def _learn(
-        self, views: ActionViews, table: ViewTable, seen: frozenset[str]
+        self,
+        views: ActionViews,
+        table: ViewTable,
+        seen: frozenset[str],
+        dynamic: frozenset[str],
     ) -> ActionModel | None:
         """The model of an action; None if it was never seen to work."""
         if not table.success.any():
             return None
-        found = find_preconditions(views, table, seen, self.settings)
+        found = find_preconditions(views, table, seen, dynamic, self._witnesses, self.settings)
         return ActionModel(
             views.action,
             found.needed,

@@ -1,20 +1,23 @@
 """Preconditions: what held before every success, bounded from above by what failed.
 
 Whatever was false before a success is no precondition. Without failures nothing more is known,
-and all that is left counts: the model is sound. A failure must violate a precondition; so what
-alone explains a failure is needed, and what was often violated and never alone is given up.
+and all that is left counts: the model is sound. A failure must violate a precondition, so what
+alone explains a failure is needed. What was violated in several failures and never alone is given
+up, if it follows from what is likelier to be meant, in all states that were seen (``witnesses``).
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
 
 from skillwrapper.action_models.models import Condition
 from skillwrapper.action_models.settings import ActionModelSettings
-from skillwrapper.action_models.skeleton import LiftedAtom
+from skillwrapper.action_models.skeleton import LiftedAtom, Schema
 from skillwrapper.action_models.views import ActionViews, Bits, ViewTable, some
+from skillwrapper.action_models.witnesses import Witnesses, makes_no_difference
 
 _EQUAL = "="
 
@@ -35,7 +38,12 @@ class Preconditions:
 
 
 def find_preconditions(
-    views: ActionViews, table: ViewTable, seen: frozenset[str], settings: ActionModelSettings
+    views: ActionViews,
+    table: ViewTable,
+    seen: frozenset[str],
+    dynamic: frozenset[str],
+    witnesses: Witnesses,
+    settings: ActionModelSettings,
 ) -> Preconditions:
     """The preconditions of an action that succeeded at least once.
 
@@ -44,6 +52,8 @@ def find_preconditions(
         table: its views.
         seen: the predicates of which anything was ever true; that others were false, as they
             always were, says nothing.
+        dynamic: the predicates of which anything ever changed.
+        witnesses: states in which conditions are told from each other.
         settings: what preconditions may say.
     """
     conditions, violated = _candidates(views, table)
@@ -53,16 +63,13 @@ def find_preconditions(
     allowed = _announced(conditions, views, seen, settings)
     if settings.negatives != "none":
         allowed |= _cover(failures[~failures[:, allowed].any(axis=1)])
-    kept = allowed & ~_given_up(failures[:, allowed], allowed, settings.enough_failures)
+    always = [c for c, own in zip(conditions, allowed, strict=True) if own]
+    doubtful = _doubtful(failures[:, allowed], settings.enough_failures)
+    suspects = [c for c, own in zip(always, doubtful, strict=True) if own]
+    needed = set(always) - set(_redundant(always, suspects, views, table, dynamic, witnesses))
     return Preconditions(
-        tuple(sorted(c for c, keep in zip(conditions, kept, strict=True) if keep)),
-        tuple(
-            sorted(
-                c
-                for c, own, keep in zip(conditions, allowed, kept, strict=True)
-                if own and not keep
-            )
-        ),
+        tuple(sorted(needed)),
+        tuple(sorted(set(always) - needed)),
         int((~failures.any(axis=1)).sum()),
     )
 
@@ -85,27 +92,83 @@ def _announced(
     settings: ActionModelSettings,
 ) -> Bits:
     """The literals that may be preconditions without a failure as their reason."""
+    everything, skeleton = settings.negatives == "all", views.skeleton
     declared = settings.negatives == "declared"
-    negative = settings.negatives == "all" or (declared and views.skeleton.has_negatives)
-    unequal = settings.negatives == "all" or (declared and views.skeleton.has_equality)
 
     def is_announced(condition: Condition) -> bool:
-        if condition.holds:
+        if condition.holds or everything:
             return True
         predicate = condition.atom.predicate
-        return unequal if predicate == _EQUAL else negative and predicate in seen
+        if predicate == _EQUAL:
+            return declared and skeleton.has_equality
+        return declared and skeleton.has_negatives and predicate in seen
 
     return np.array([is_announced(condition) for condition in conditions], dtype=bool)
 
 
-def _given_up(failures: Bits, allowed: Bits, enough: int) -> Bits:
-    """Which of all literals failures speak against; ``failures`` are by allowed ones alone."""
-    found = np.zeros(len(allowed), dtype=bool)
-    explained = failures[failures.any(axis=1)]
-    needed = _cover(explained)
-    often = explained.sum(axis=0) >= enough
-    found[allowed] = often & ~needed
-    return found
+def _doubtful(failures: Bits, enough: int) -> Bits:
+    """The literals that failures speak against: often violated, and never alone."""
+    alone = some(failures[failures.sum(axis=1) == 1])
+    doubtful: Bits = (failures.sum(axis=0) >= enough) & ~alone
+    return doubtful
+
+
+def _redundant(
+    always: list[Condition],
+    suspects: list[Condition],
+    views: ActionViews,
+    table: ViewTable,
+    dynamic: frozenset[str],
+    witnesses: Witnesses,
+) -> list[Condition]:
+    """The suspects that follow from what is likelier to be meant (``_Likelihood``)."""
+    if not suspects:
+        return []
+    seen = witnesses.seen_by(views.action)
+    likelihood = _Likelihood(views, table, dynamic)
+
+    def others(suspect: Condition) -> list[Condition]:
+        return [c for c in always if c not in suspects or likelihood.is_likelier(c, suspect)]
+
+    return [s for s in suspects if makes_no_difference(s, others(s), views.action, seen)]
+
+
+class _Likelihood:
+    """Which of two literals, of which one follows from the other, is likelier meant.
+
+    What always holds together cannot be told apart, so mostly both are kept. But what is negative
+    is given up for what is positive, what the action leaves alone for what it deletes, what never
+    changes for what does, and what names the action's parameters out of order for the same
+    predicate with parameters in order.
+
+    Args:
+        views: the action.
+        table: its views.
+        dynamic: the predicates of which anything ever changed.
+    """
+
+    def __init__(self, views: ActionViews, table: ViewTable, dynamic: frozenset[str]) -> None:
+        self._action, self._dynamic = views.action, dynamic
+        gone = some((table.before & ~table.after)[table.success])
+        self._deleted = {a for a, own in zip(views.atoms, gone, strict=True) if own}
+
+    def is_likelier(self, first: Condition, second: Condition) -> bool:
+        """Whether the first is likelier than the second; mostly neither is."""
+        one, other = self._rank(first), self._rank(second)
+        if one != other or first.atom.predicate != second.atom.predicate:
+            return one < other
+        return _disorder(first, self._action) < _disorder(second, self._action)
+
+    def _rank(self, condition: Condition) -> tuple[bool, bool, bool]:
+        static = condition.atom.predicate not in self._dynamic
+        return not condition.holds, condition.atom not in self._deleted, static
+
+
+def _disorder(condition: Condition, action: Schema) -> int:
+    """How many pairs of parameters a literal names in another order than the action does."""
+    order = {p.name: number for number, p in enumerate(action.parameters)}
+    numbers = [order[term] for term in condition.atom.terms if term in order]
+    return sum(a > b for a, b in itertools.combinations(numbers, 2))
 
 
 def _cover(failures: Bits) -> Bits:

@@ -20,9 +20,15 @@ class ActionModelSettings(BaseModel):
         "(:negative-preconditions, :equality); all",
     )
     enough_failures: int = Field(
-        default=10,
+        default=3,
         ge=1,
         description="a precondition that was violated in so many different failures, and never "
-        "explained one alone, is given up",
+        "explained one alone, is given up if it follows from others in all states that were kept",
         json_schema_extra={"unit": "views"},
+    )
+    witness_states: int = Field(
+        default=500,
+        ge=0,
+        description="how many states are kept to see whether a precondition makes a difference",
+        json_schema_extra={"unit": "states"},
     )

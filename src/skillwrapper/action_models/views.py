@@ -101,8 +101,14 @@ class ActionViews:
 
     def seen(self, table: ViewTable) -> frozenset[str]:
         """The predicates of which anything was true in a view."""
-        true = some(table.before) | some(table.after)
-        return frozenset(a.predicate for a, own in zip(self.atoms, true, strict=True) if own)
+        return self._predicates(some(table.before) | some(table.after))
+
+    def changed(self, table: ViewTable) -> frozenset[str]:
+        """The predicates of which anything changed in a view."""
+        return self._predicates(some(table.before ^ table.after))
+
+    def _predicates(self, chosen: Bits) -> frozenset[str]:
+        return frozenset(a.predicate for a, own in zip(self.atoms, chosen, strict=True) if own)
 
     def table(self) -> ViewTable:
         """All views so far."""
