@@ -58,7 +58,7 @@ types: setup
 	$(BIN)/mypy
 
 tests: setup
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --dist loadfile
 
 benchmark: setup
 	$(BIN)/python -m benchmarks

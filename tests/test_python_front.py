@@ -35,6 +35,16 @@ def test_importing_is_light() -> None:
         assert f"'{heavy}'" not in loaded
 
 
+def test_the_command_line_loads_no_client_and_no_library_of_a_few_commands() -> None:
+    """Every command would start half a second later, and stop later when it is told at once."""
+    code = "import sys, skillwrapper.cli.main; print(list(sys.modules))"
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout
+    for rare in ("openai", "httpx2", "ray", "matplotlib", "mujoco", "scipy", "gymnasium"):
+        assert f"'{rare}'" not in loaded
+
+
 def test_the_page_names_every_public_name() -> None:
     text = PAGE.read_text()
     rare = {"AbstractState", "Domain", "Environment", "LearningResult", "ModelRequest", "Outcome"}

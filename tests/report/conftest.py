@@ -16,7 +16,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> RunArchive:
         domain="burger",
         seed=2,
         iterations=3,
-        exploration=ExplorationSettings(budget=20),
+        exploration=ExplorationSettings(budget=14),
         learning=LearningSettings(attempts=1, candidates=1, threshold=0.9),
         model=ModelSettings(noise="gpt5"),
     )

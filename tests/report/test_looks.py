@@ -40,7 +40,7 @@ def test_the_page_is_drawn(run: RunArchive, tmp_path: Path) -> None:
     with Image.open(picture) as image:
         pixels = np.asarray(image.convert("RGB"))
     assert pixels.shape == (2400, 1280, 3)
-    colours = np.unique(pixels.reshape(-1, 3), axis=0)
+    colours = np.unique(pixels @ np.array([1 << 16, 1 << 8, 1]))
     assert len(colours) > 1000  # text, charts and pictures, not a blank sheet
     rows_with_content = (pixels.std(axis=(1, 2)) > 1).mean()
     assert rows_with_content > 0.5

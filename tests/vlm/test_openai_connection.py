@@ -20,7 +20,8 @@ from scripted import ScriptedModel
 
 from skillwrapper.embedded.server import SEEING, VlmServer
 from skillwrapper.errors import ConfigurationError, ProviderError, SkillWrapperError, UserError
-from skillwrapper.vlm.openai_connection import Endpoint, endpoint_address, open_client
+from skillwrapper.vlm.endpoints import Endpoint, endpoint_address
+from skillwrapper.vlm.openai_connection import open_client
 from skillwrapper.vlm.openai_model import OpenAIModel, OpenAISettings
 from skillwrapper.vlm.protocol import ModelRequest, Role
 

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from skillwrapper.runs.settings import ModelSettings, RunSettings
-from skillwrapper.vlm.openai_connection import endpoint_address
+from skillwrapper.vlm.endpoints import endpoint_address
 from skillwrapper.vlm.prices import CallCost, nothing, price_of
 from skillwrapper.vlm.protocol import Role
 

@@ -10,7 +10,7 @@ from skillwrapper.embedded import EmbeddedModel, noise_profile
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.runs.settings import ModelSettings, RunSettings
 from skillwrapper.vlm.human_model import HumanModel
-from skillwrapper.vlm.prompt_library import PromptLibrary
+from skillwrapper.vlm.prompt_library import PromptLibrary, shipped_prompts
 from skillwrapper.vlm.protocol import VisionLanguageModel
 from skillwrapper.vlm.recorded_model import RecordedModel
 
@@ -62,7 +62,7 @@ def open_prompts(settings: ModelSettings) -> PromptLibrary:
     Raises:
         UserError: if the folder or a template in it cannot be used.
     """
-    return PromptLibrary(settings.prompts)
+    return PromptLibrary(settings.prompts) if settings.prompts else shipped_prompts()
 
 
 def model_names(settings: ModelSettings) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ from skillwrapper.vlm.parsing import (
     parse_sequences,
     says_nothing,
 )
-from skillwrapper.vlm.prompt_library import PromptLibrary
+from skillwrapper.vlm.prompt_library import PromptLibrary, shipped_prompts
 from skillwrapper.vlm.protocol import ModelRequest, Role, VisionLanguageModel
 from skillwrapper.vlm.requests import RequestBuilder, Slot, allowed_slots, batch_slots, slots_of
 from skillwrapper.vlm.settings import AskingSettings
@@ -61,7 +61,7 @@ class Assistant:
         settings: AskingSettings | None = None,
     ) -> None:
         self._models = models if isinstance(models, ModelSet) else ModelSet(models)
-        self._requests = RequestBuilder(prompts or PromptLibrary())
+        self._requests = RequestBuilder(prompts or shipped_prompts())
         self._settings = settings or AskingSettings()
         self._evaluator = Evaluator(self._models, self._requests, self._settings)
 

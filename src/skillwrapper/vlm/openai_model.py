@@ -12,7 +12,8 @@ import openai
 
 from skillwrapper.errors import ConfigurationError, UnusableReplyError
 from skillwrapper.usage import Usage
-from skillwrapper.vlm.openai_connection import Endpoint, open_client
+from skillwrapper.vlm.endpoints import Endpoint
+from skillwrapper.vlm.openai_connection import open_client
 from skillwrapper.vlm.openai_dialect import INSTEAD, Dialect, Feature, NotUnderstoodError
 from skillwrapper.vlm.openai_errors import ErrorTranslator
 from skillwrapper.vlm.openai_replies import (

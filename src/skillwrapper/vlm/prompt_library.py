@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
+from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -119,6 +120,12 @@ class PromptLibrary:
                         f"{error} (line {reference.lineno} of the template that names it)"
                     ) from error
                 self._check_referenced(inner, known)
+
+
+@cache
+def shipped_prompts() -> PromptLibrary:
+    """Our own templates, compiled once for all who use them."""
+    return PromptLibrary()
 
 
 def _check_folder(folder: Path) -> None:
