@@ -8,6 +8,7 @@ import pytest
 from planning_domains import (
     FERRY,
     LAMPS,
+    MINE,
     OBJECTS,
     STARTS,
     instances,
@@ -123,3 +124,28 @@ def test_levels_of_negative_preconditions(level: str, tmp_path: Path) -> None:
 def test_instances_include_equal_arguments(tmp_path: Path) -> None:
     true = strips_of(FERRY, tmp_path)
     assert ("sail", ("b1", "p", "p")) in instances(true, OBJECTS["boats"])
+
+
+def test_a_property_that_was_never_there_is_kept_out_of_an_action(tmp_path: Path) -> None:
+    true = strips_of(MINE, tmp_path)
+    start = STARTS["mine"]
+    blasted = true.actions["blast"].apply(start, ("a",))
+    steps = [Step("blast", ("a",), True, start, blasted)]
+    kept = learn_action_models(true.skeleton, steps).actions["blast"]
+    assert "(not (gold ?x))" in map(str, kept.preconditions)
+    offered = Step("stay", (), True, start | {"loose b"}, start | {"loose b"})
+    told = learn_action_models(true.skeleton, [*steps, offered]).actions["blast"]
+    assert "(not (gold ?x))" not in map(str, told.preconditions)
+    none = ActionModelSettings(negatives="none")
+    bold = learn_action_models(true.skeleton, steps, none).actions["blast"]
+    assert "(not (gold ?x))" not in map(str, bold.preconditions)
+
+
+def test_failures_that_violate_much_refute_nothing_that_is_needed(tmp_path: Path) -> None:
+    true = strips_of(FERRY, tmp_path)
+    for seed in range(5):
+        steps = list(walk(true, 400, seed=seed, failures=True))
+        learned = _printed(learn_action_models(true.skeleton, steps), tmp_path)
+        for state in {step.before for step in steps}:
+            found = set(learned.applicable(state, OBJECTS["boats"]))
+            assert found <= set(true.applicable(state, OBJECTS["boats"]))

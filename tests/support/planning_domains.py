@@ -46,12 +46,24 @@ LAMPS = """
 """
 """Conditional effects, and arguments that must differ."""
 
+MINE = """
+(define (domain mine) (:requirements :typing)
+(:types cell)
+(:predicates (loose ?x - cell) (gold ?x - cell) (clear ?x - cell))
+(:action blast :parameters (?x - cell)
+  :precondition (loose ?x) :effect (and (clear ?x) (not (loose ?x)) (not (gold ?x))))
+(:action stay :parameters () :precondition () :effect ()))
+"""
+"""An action that ends what few objects have and nothing else changes."""
+
 OBJECTS = {
+    "mine": {"a": "cell", "b": "cell"},
     "boats": {"b1": "boat", "b2": "boat", "c1": "car", "c2": "car", "p": "harbour", "q": "harbour"},
     "lamps": {"s1": "switch", "s2": "switch", "s3": "switch", "l1": "lamp", "l2": "lamp"},
 }
 
 STARTS = {
+    "mine": frozenset({"loose a", "gold b"}),
     "boats": frozenset({"at b1 p", "at b2 home", "at c1 p", "at c2 q"}),
     "lamps": frozenset({"up s1", "up s2", "wired s1 l1", "wired s2 l1", "wired s3 l2"}),
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from skillwrapper.action_models.background import Background, background_of
 from skillwrapper.action_models.effects import find_effects
 from skillwrapper.action_models.models import ActionModel, DomainModel
 from skillwrapper.action_models.preconditions import find_preconditions
@@ -11,7 +12,7 @@ from skillwrapper.action_models.settings import ActionModelSettings
 from skillwrapper.action_models.skeleton import DomainSkeleton
 from skillwrapper.action_models.steps import Step
 from skillwrapper.action_models.views import ActionViews, ViewTable
-from skillwrapper.action_models.witnesses import Witnesses
+from skillwrapper.action_models.witnesses import SeenStates
 
 
 class ActionModelLearner:
@@ -27,7 +28,7 @@ class ActionModelLearner:
     ) -> None:
         self.skeleton = skeleton
         self.settings = settings or ActionModelSettings()
-        self._witnesses = Witnesses(skeleton, self.settings.witness_states)
+        self._seen = SeenStates(skeleton, self.settings.witness_states)
         self._views = {
             name: ActionViews(skeleton, action) for name, action in skeleton.actions.items()
         }
@@ -35,33 +36,24 @@ class ActionModelLearner:
     def add(self, steps: Iterable[Step]) -> None:
         """Take steps in; each must fit the domain (``steps.check_step``)."""
         for step in steps:
-            self._witnesses.add(step)
+            self._seen.add(step)
             self._views[step.action].add(step)
 
     def learn(self) -> DomainModel:
         """The model of all steps so far."""
         tables = {name: views.table() for name, views in self._views.items()}
-        seen = self._witnesses.predicates.union(
-            *(self._views[n].seen(t) for n, t in tables.items())
-        )
-        dynamic = frozenset[str]().union(*(self._views[n].changed(t) for n, t in tables.items()))
-        models = {
-            n: self._learn(views, tables[n], seen, dynamic) for n, views in self._views.items()
-        }
+        background = background_of(self._views, tables, self._seen.look())
+        models = {n: self._learn(views, tables[n], background) for n, views in self._views.items()}
         known = {name: model for name, model in models.items() if model is not None}
         return DomainModel(self.skeleton, known)
 
     def _learn(
-        self,
-        views: ActionViews,
-        table: ViewTable,
-        seen: frozenset[str],
-        dynamic: frozenset[str],
+        self, views: ActionViews, table: ViewTable, background: Background
     ) -> ActionModel | None:
         """The model of an action; None if it was never seen to work."""
         if not table.success.any():
             return None
-        found = find_preconditions(views, table, seen, dynamic, self._witnesses, self.settings)
+        found = find_preconditions(views, table, background, self.settings)
         return ActionModel(
             views.action,
             found.needed,

@@ -13,11 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillwrapper.action_models.background import Background
 from skillwrapper.action_models.models import Condition
 from skillwrapper.action_models.settings import ActionModelSettings
 from skillwrapper.action_models.skeleton import LiftedAtom, Schema
 from skillwrapper.action_models.views import ActionViews, Bits, ViewTable, some
-from skillwrapper.action_models.witnesses import Witnesses, makes_no_difference
+from skillwrapper.action_models.witnesses import makes_no_difference, never_came_about
 
 _EQUAL = "="
 
@@ -38,35 +39,28 @@ class Preconditions:
 
 
 def find_preconditions(
-    views: ActionViews,
-    table: ViewTable,
-    seen: frozenset[str],
-    dynamic: frozenset[str],
-    witnesses: Witnesses,
-    settings: ActionModelSettings,
+    views: ActionViews, table: ViewTable, background: Background, settings: ActionModelSettings
 ) -> Preconditions:
     """The preconditions of an action that succeeded at least once.
 
     Args:
         views: the action.
         table: its views.
-        seen: the predicates of which anything was ever true; that others were false, as they
-            always were, says nothing.
-        dynamic: the predicates of which anything ever changed.
-        witnesses: states in which conditions are told from each other.
+        background: what the steps of all actions say.
         settings: what preconditions may say.
     """
     conditions, violated = _candidates(views, table)
     possible = ~some(violated[table.success])
     conditions = [c for c, left in zip(conditions, possible, strict=True) if left]
     failures = violated[~table.success][:, possible]
-    allowed = _announced(conditions, views, seen, settings)
+    allowed = _announced(conditions, views, background.seen, settings)
     if settings.negatives != "none":
         allowed |= _cover(failures[~failures[:, allowed].any(axis=1)])
+        allowed |= _unheard_of(conditions, views.action, background)
     always = [c for c, own in zip(conditions, allowed, strict=True) if own]
     doubtful = _doubtful(failures[:, allowed], settings.enough_failures)
     suspects = [c for c, own in zip(always, doubtful, strict=True) if own]
-    needed = set(always) - set(_redundant(always, suspects, views, table, dynamic, witnesses))
+    needed = set(always) - set(_redundant(always, suspects, views, table, background))
     return Preconditions(
         tuple(sorted(needed)),
         tuple(sorted(set(always) - needed)),
@@ -106,6 +100,23 @@ def _announced(
     return np.array([is_announced(condition) for condition in conditions], dtype=bool)
 
 
+def _unheard_of(conditions: list[Condition], action: Schema, background: Background) -> Bits:
+    """Properties that no object ever had where the action would have worked (literals,).
+
+    Whether the action ends them is unknown. Of what changes, traces show when it does; what
+    nobody has seen change is left alone rather than lost: gold in the rock that a laser melts.
+    """
+    known = background.seen - background.dynamic
+    positive = [c for c in conditions if c.holds]
+    found = np.zeros(len(conditions), dtype=bool)
+    for number, condition in enumerate(conditions):
+        atom = condition.atom
+        if not condition.holds and len(atom.terms) <= 1 and atom.predicate in known:
+            seen = background.witnesses.seen_by(action)
+            found[number] = never_came_about(condition, positive, action, seen)
+    return found
+
+
 def _doubtful(failures: Bits, enough: int) -> Bits:
     """The literals that failures speak against: often violated, and never alone."""
     alone = some(failures[failures.sum(axis=1) == 1])
@@ -118,14 +129,13 @@ def _redundant(
     suspects: list[Condition],
     views: ActionViews,
     table: ViewTable,
-    dynamic: frozenset[str],
-    witnesses: Witnesses,
+    background: Background,
 ) -> list[Condition]:
     """The suspects that follow from what is likelier to be meant (``_Likelihood``)."""
     if not suspects:
         return []
-    seen = witnesses.seen_by(views.action)
-    likelihood = _Likelihood(views, table, dynamic)
+    seen = background.witnesses.seen_by(views.action)
+    likelihood = _Likelihood(views, table, background.dynamic)
 
     def others(suspect: Condition) -> list[Condition]:
         return [c for c in always if c not in suspects or likelihood.is_likelier(c, suspect)]

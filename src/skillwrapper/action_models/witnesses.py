@@ -8,9 +8,9 @@ of its own there, and a model without it applies in the same way wherever anythi
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from skillwrapper.action_models.joins import Facts, Join, Literal
 from skillwrapper.action_models.models import Condition
@@ -21,63 +21,84 @@ _ENOUGH_STATES = 10
 """In so many states the other conditions must hold before anything is said to follow from them."""
 
 
-class Witnesses:
-    """Keeps the first different states of all steps, and what kinds their objects are of.
+_Filled = set[tuple[str, TypedName]]
+"""Objects, and parameters in whose place they stood."""
+
+
+class SeenStates:
+    """Keeps the first different states before steps, and what their arguments are.
 
     Args:
-        skeleton: the domain.
         most: how many states are kept.
     """
 
     def __init__(self, skeleton: DomainSkeleton, most: int) -> None:
         self._skeleton, self._most = skeleton, most
-        self._states: dict[State, dict[str, set[TypedName]]] = {}
+        self._states: dict[State, _Filled] = {}
 
     def add(self, step: Step) -> None:
-        """Keep the state before, as long as there is room, and what the arguments are."""
-        if step.before not in self._states:
-            if len(self._states) >= self._most:
-                return
-            self._states[step.before] = self._kinds(step.before)
-        action = self._skeleton.actions[step.action]
-        for name, slot in zip(step.arguments, action.parameters, strict=True):
-            self._states[step.before].setdefault(name, set()).add(slot)
+        """Keep the state before, as long as there is room."""
+        if len(self._states) < self._most:
+            parameters = self._skeleton.actions[step.action].parameters
+            filled = zip(step.arguments, parameters, strict=True)
+            self._states.setdefault(step.before, set()).update(filled)
 
-    @property
+    def look(self) -> Witnesses:
+        """The states so far, to be searched."""
+        return Witnesses(self._skeleton, self._states)
+
+
+class Witnesses:
+    """States to be searched.
+
+    Args:
+        skeleton: the domain.
+        states: the states, and what else is known of their objects.
+    """
+
+    def __init__(self, skeleton: DomainSkeleton, states: Mapping[State, _Filled]) -> None:
+        self._skeleton, self._states = skeleton, states
+        self._fitting: dict[tuple[str, ...], list[frozenset[str]]] = {}
+
+    @cached_property
     def predicates(self) -> frozenset[str]:
-        """The predicates of which anything is true in a state that was kept."""
+        """The predicates of which anything is true."""
         return frozenset(atom.split(" ", 1)[0] for state in self._states for atom in state)
-
-    def _kinds(self, state: State) -> dict[str, set[TypedName]]:
-        """The slots that objects fill in a state."""
-        found: dict[str, set[TypedName]] = defaultdict(set)
-        for constant in self._skeleton.constants:
-            found[constant.name].add(constant)
-        for atom in state:
-            words = atom.split(" ")
-            slots = self._skeleton.predicates[words[0]].parameters
-            for name, slot in zip(words[1:], slots, strict=True):
-                found[name].add(slot)
-        return found
 
     def seen_by(self, action: Schema) -> list[Witness]:
         """The states as joins over the parameters of an action need them."""
-        fits = {
-            (slot, parameter): self._skeleton.fits(slot, parameter)
-            for kinds in self._states.values()
-            for slot in set().union(*kinds.values())
-            for parameter in action.parameters
-        }
+        for parameter in action.parameters:
+            if parameter.types not in self._fitting:
+                self._fitting[parameter.types] = [*self._fit(parameter)]
         return [
-            Witness(
-                Facts(state),
-                {
-                    p.name: frozenset(n for n, own in kinds.items() if any(fits[s, p] for s in own))
-                    for p in action.parameters
-                },
-            )
-            for state, kinds in self._states.items()
+            Witness(facts, {p.name: self._fitting[p.types][number] for p in action.parameters})
+            for number, facts in enumerate(self._facts)
         ]
+
+    def _fit(self, parameter: TypedName) -> Iterator[frozenset[str]]:
+        """For every state the objects that may stand for a parameter."""
+        fits = {
+            slot: self._skeleton.fits(slot, parameter) for _, slot in itertools.chain(*self._slots)
+        }
+        for filled in self._slots:
+            yield frozenset(name for name, slot in filled if fits[slot])
+
+    @cached_property
+    def _facts(self) -> list[Facts]:
+        return [Facts(state) for state in self._states]
+
+    @cached_property
+    def _slots(self) -> list[_Filled]:
+        """For every state its objects and what they may stand for."""
+        constants = {(constant.name, constant) for constant in self._skeleton.constants}
+        return [
+            constants.union(given, *(self._filled(atom) for atom in state))
+            for state, given in self._states.items()
+        ]
+
+    def _filled(self, atom: str) -> Iterable[tuple[str, TypedName]]:
+        predicate, *terms = atom.split(" ")
+        return zip(terms, self._skeleton.predicates[predicate].parameters, strict=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,12 +126,20 @@ def makes_no_difference(
 
     Where the others hold in too few states this is no more than chance, and the answer is no.
     """
-    asked = [_literal(c) for c in others]
-    against = [*asked, _literal(Condition(condition.atom, not condition.holds))]
-    if any(w.satisfies(action, against) for w in seen):
+    others = list(others)
+    if not never_came_about(condition, others, action, seen):
         return False
+    asked = [_literal(c) for c in others]
     held = (w for w in seen if w.satisfies(action, asked))
     return sum(1 for _ in itertools.islice(held, _ENOUGH_STATES)) == _ENOUGH_STATES
+
+
+def never_came_about(
+    condition: Condition, others: Iterable[Condition], action: Schema, seen: Sequence[Witness]
+) -> bool:
+    """Whether in no state, with no objects, a condition was violated while others held."""
+    against = [_literal(c) for c in (*others, Condition(condition.atom, not condition.holds))]
+    return not any(w.satisfies(action, against) for w in seen)
 
 
 def _literal(condition: Condition) -> Literal:
