@@ -1,16 +1,17 @@
 """What failed attempts bring: 1,000 random transitions of every domain, with and without failures.
 
-    python -m benchmarks.action_models.failures
+    python -m benchmarks.action_models.failures [--domains ...]
 
-Every second attempt is drawn from what applies, the others from everything. *Exact*: the learned
-domain applies where the true one does, in all of AMLGym's test states.
+Every second attempt is drawn from what applies, the others from everything. A domain is *exact* if
+the learned one applies where the true one does, in all of AMLGym's test states; *to the letter* if
+moreover every action has the literals of the true one for preconditions, and no others.
 """
 
 from __future__ import annotations
 
-import tempfile
+import argparse
 from collections.abc import Iterable
-from pathlib import Path
+from dataclasses import dataclass
 
 from benchmarks.action_models import gym
 from benchmarks.action_models.metrics import predictive_power
@@ -18,31 +19,65 @@ from benchmarks.action_models.walks import Walker
 from skillwrapper.action_models.learner import learn_action_models
 from skillwrapper.action_models.printing import print_model
 from skillwrapper.action_models.steps import Step
-from skillwrapper.action_models.strips import Strips, read_strips
+from skillwrapper.action_models.strips import Strips, parse_strips, read_strips
 
 TRANSITIONS = 1000
 STEPS = 20
 FAILING = 0.5
 
 
+@dataclass(frozen=True)
+class Figures:
+    """How good learned preconditions are.
+
+    Attributes:
+        precision: how much of what is said to apply does.
+        recall: how much of what applies is said to.
+        right: the share of learned literals that truly are preconditions.
+        found: the share of true literals that were learned.
+    """
+
+    precision: float
+    recall: float
+    right: float
+    found: float
+
+    @property
+    def is_exact(self) -> bool:
+        return (self.precision, self.recall) == (1.0, 1.0)
+
+    @property
+    def is_literal(self) -> bool:
+        return self.is_exact and (self.right, self.found) == (1.0, 1.0)
+
+    def __str__(self) -> str:
+        return f"{self.precision:.3f} / {self.recall:.3f} | {self.right:.2f} / {self.found:.2f}"
+
+
 def main() -> None:
     """Print precision and recall by domain."""
-    print("| domain | failures | without failures: precision / recall | with | exact |")
-    print("|---|---|---|---|---|")
-    exact = 0
-    for domain in gym.domain_names():
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.action_models.failures")
+    parser.add_argument("--domains", nargs="+", default=gym.domain_names())
+    domains = parser.parse_args().domains
+    print("| domain | failures | without: applies | literals | with: applies | literals | exact |")
+    print("|---" * 7 + "|")
+    exact, literal = 0, 0
+    for domain in domains:
         true, tests = read_strips(gym.domain_path(domain)), list(gym.test_states(domain))
         steps = transitions(domain, true)
+        succeeded = [step for step in steps if step.success]
         figures = []
-        for chosen in ([s for s in steps if s.success], steps):
-            power = predictive_power(_learned(true, chosen), true, tests)
-            figures.append((power["applicability_precision"], power["applicability_recall"]))
-        is_exact = figures[1] == (1.0, 1.0)
-        exact += is_exact
-        failed = sum(not s.success for s in steps)
-        shown = " | ".join(f"{precision:.3f} / {recall:.3f}" for precision, recall in figures)
-        print(f"| {domain} | {failed} | {shown} | {'yes' if is_exact else ''} |", flush=True)
-    print(f"\nexact on {exact} of {len(gym.domain_names())} domains")
+        for chosen in (succeeded, steps):
+            learned = _learned(true, chosen)
+            power = predictive_power(learned, true, tests)
+            applies = power["applicability_precision"], power["applicability_recall"]
+            figures.append(Figures(*applies, *_literals(learned, true)))
+        last = figures[-1]
+        exact, literal = exact + last.is_exact, literal + last.is_literal
+        verdict = "to the letter" if last.is_literal else "yes" if last.is_exact else ""
+        failed = len(steps) - len(succeeded)
+        print(f"| {domain} | {failed} | {figures[0]} | {last} | {verdict} |", flush=True)
+    print(f"\nexact on {exact} of {len(domains)} domains, to the letter on {literal}")
 
 
 def transitions(domain: str, true: Strips) -> list[Step]:
@@ -56,11 +91,17 @@ def transitions(domain: str, true: Strips) -> list[Step]:
 
 
 def _learned(true: Strips, steps: Iterable[Step]) -> Strips:
-    model = learn_action_models(true.skeleton, steps)
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "domain.pddl"
-        path.write_text(print_model(model))
-        return read_strips(path)
+    return parse_strips(print_model(learn_action_models(true.skeleton, steps)), "learned.pddl")
+
+
+def _literals(learned: Strips, true: Strips) -> tuple[float, float]:
+    """Precision and recall of preconditions as literals, over all actions together."""
+    shared = own = wanted = 0
+    for name, action in true.actions.items():
+        found = learned.actions[name].preconditions if name in learned.actions else ()
+        shared += len({*found} & {*action.preconditions})
+        own, wanted = own + len({*found}), wanted + len({*action.preconditions})
+    return shared / max(1, own), shared / max(1, wanted)
 
 
 if __name__ == "__main__":

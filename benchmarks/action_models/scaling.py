@@ -1,9 +1,10 @@
 """How learning grows with the number of walks, beside SAM, and a million transitions.
 
-    python -m benchmarks.action_models.scaling [--walks 100 1000 10000] [--domains ...] [--million]
+    python -m benchmarks.action_models.scaling [--walks 100 1000 10000] [--domains ...]
+        [--learners ...] [--limit SECONDS] [--million]
 
 Every measurement is a process of its own: seconds of the processor for reading and learning, and
-the most memory that it took.
+the most memory that it took. What is not done after ``--limit`` seconds of the processor is ended.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import resource
 import tempfile
 import time
 from collections.abc import Callable
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +37,7 @@ def main() -> None:
     parser.add_argument("--walks", type=int, nargs="+", default=SIZES)
     parser.add_argument("--domains", nargs="+", default=DOMAINS)
     parser.add_argument("--learners", nargs="+", default=(gym.OURS, gym.POSITIVE_SAM))
+    parser.add_argument("--limit", type=int, default=600, help="seconds of the processor")
     parser.add_argument("--million", action="store_true")
     given = parser.parse_args()
     for domain in given.domains:
@@ -42,16 +45,12 @@ def main() -> None:
             paths = _write(domain, max(given.walks), Path(folder))
             for walks in given.walks:
                 for learner in given.learners:
-                    seconds, megabytes = _apart(_learn, learner, domain, paths[:walks])
-                    print(
-                        f"{domain:12} {walks:6} walks {learner:12} {seconds:8.2f} s "
-                        f"{megabytes:6.0f} MB",
-                        flush=True,
-                    )
+                    spent = _apart(given.limit, _learn, learner, domain, paths[:walks])
+                    print(f"{domain:12} {walks:6} walks {learner:12} {spent}", flush=True)
     if given.million:
         for size in (MILLION // 10, MILLION):
-            seconds, megabytes = _apart(_stream, given.domains[0], size)
-            print(f"{given.domains[0]:12} {size} transitions {seconds:.1f} s {megabytes:.0f} MB")
+            spent = _apart(given.limit, _stream, given.domains[0], size)
+            print(f"{given.domains[0]:12} {size:7} transitions {spent}", flush=True)
 
 
 def _write(domain: str, walks: int, folder: Path) -> list[Path]:
@@ -82,16 +81,26 @@ def _stream(domain: str, size: int) -> float:
     return time.process_time() - started
 
 
-def _apart(measure: Callable[..., float], *arguments: Any) -> tuple[float, float]:
-    """Run in a new process; its seconds, and the most memory (MB) that it took."""
+def _apart(limit: int, measure: Callable[..., float], *arguments: Any) -> str:
+    """Run in a new process: its seconds, and the most memory that it took."""
     context = multiprocessing.get_context("spawn")
-    with context.Pool(1) as pool:
-        return pool.apply(_with_memory, (measure, arguments))
+    ours, theirs = context.Pipe(duplex=False)
+    process = context.Process(target=_report, args=(theirs, limit, measure, arguments))
+    process.start()
+    theirs.close()
+    process.join()
+    if process.exitcode or not ours.poll():
+        return f"ended after {limit} s"
+    seconds, megabytes = ours.recv()
+    return f"{seconds:8.2f} s {megabytes:6.0f} MB"
 
 
-def _with_memory(measure: Callable[..., float], arguments: tuple[Any, ...]) -> tuple[float, float]:
+def _report(
+    end: Connection, limit: int, measure: Callable[..., float], arguments: tuple[Any, ...]
+) -> None:
+    resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
     seconds = measure(*arguments)
-    return seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+    end.send((seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 
 from skillwrapper.action_models.skeleton import TypedName
 from skillwrapper.action_models.steps import State
@@ -104,50 +104,21 @@ class Join:
         facts: Facts,
         allowed: Mapping[str, frozenset[str]],
     ) -> None:
-        self._names = [p.name for p in parameters]
-        self._literals = list(literals)
+        self._names = tuple([p.name for p in parameters])
+        self._literals = tuple(literals)
         self._facts, self._allowed = facts, allowed
 
     def bindings(self) -> Iterator[Words]:
         """The objects that stand for the parameters, each binding once."""
-        if not any(self._facts.count(pattern[0]) == 0 for pattern in self._patterns):
-            yield from self._extend({}, 0)
-
-    @cached_property
-    def _patterns(self) -> list[Words]:
-        return [words for positive, words in self._literals if positive and words[0] != EQUAL]
-
-    @cached_property
-    def _stages(self) -> list[_Stage]:
-        bound: set[str] = set()
-        patterns, stages = list(self._patterns), []
-        checks = [x for x in self._literals if not x[0] or x[1][0] == EQUAL]
-        while patterns or not bound.issuperset(self._names):
-            pattern = self._next(patterns, bound)
-            terms = list(enumerate(pattern))[1:]
-            places = tuple(i for i, t in terms if t in bound or not t.startswith("?"))
-            new = tuple(i for i, t in terms if i not in places)
-            bound.update(pattern[i] for i in new)
-            ready = [c for c in checks if bound.issuperset(_parameters(c[1]))]
-            checks = [c for c in checks if c not in ready]
-            known = tuple(pattern[i] for i in places)
-            stages.append(_Stage(pattern, places, known, new, tuple(ready)))
-        stages.append(_Stage((), (), (), (), tuple(checks)))
-        return stages
-
-    def _next(self, patterns: list[Words], bound: set[str]) -> Words:
-        """The pattern that leaves least to choose; a parameter without any if none is left."""
-        if not patterns:
-            return EQUAL, next(name for name in self._names if name not in bound)
-
-        def width(pattern: Words) -> tuple[bool, float]:
-            fixed = sum(t in bound or not t.startswith("?") for t in pattern[1:])
-            loose = len(pattern) - 1 - fixed
-            return fixed == 0 < loose, self._facts.count(pattern[0]) ** (loose / len(pattern))
-
-        chosen = min(patterns, key=width)
-        patterns.remove(chosen)
-        return chosen
+        counts = [self._facts.count(words[0]) for _, words in self._literals]
+        if any(
+            count == 0 and positive and words[0] != EQUAL
+            for count, (positive, words) in zip(counts, self._literals, strict=True)
+        ):
+            return
+        magnitudes = tuple([count.bit_length() for count in counts])
+        self._stages = _plan(self._names, self._literals, magnitudes)
+        yield from self._extend({}, 0)
 
     def _extend(self, binding: dict[str, str], number: int) -> Iterator[Words]:
         stage = self._stages[number]
@@ -183,3 +154,42 @@ class Join:
 
 def _parameters(words: Words) -> set[str]:
     return {word for word in words if word.startswith("?")}
+
+
+@lru_cache(4096)
+def _plan(
+    names: tuple[str, ...], literals: tuple[Literal, ...], magnitudes: tuple[int, ...]
+) -> list[_Stage]:
+    """In which order parameters are bound, where predicates have about 2^magnitude atoms each."""
+    size = {words[0]: m for (_, words), m in zip(literals, magnitudes, strict=True)}
+    patterns = [words for positive, words in literals if positive and words[0] != EQUAL]
+    checks = [x for x in literals if not x[0] or x[1][0] == EQUAL]
+    bound: set[str] = set()
+    stages = []
+    while patterns or not bound.issuperset(names):
+        pattern = _next(patterns, bound, names, size)
+        terms = list(enumerate(pattern))[1:]
+        places = tuple(i for i, t in terms if t in bound or not t.startswith("?"))
+        new = tuple(i for i, t in terms if i not in places)
+        bound.update(pattern[i] for i in new)
+        ready = [c for c in checks if bound.issuperset(_parameters(c[1]))]
+        checks = [c for c in checks if c not in ready]
+        known = tuple(pattern[i] for i in places)
+        stages.append(_Stage(pattern, places, known, new, tuple(ready)))
+    return [*stages, _Stage((), (), (), (), tuple(checks))]
+
+
+def _next(
+    patterns: list[Words], bound: set[str], names: tuple[str, ...], size: Mapping[str, int]
+) -> Words:
+    """The pattern that leaves least to choose; a parameter without any if none is left."""
+    if not patterns:
+        return EQUAL, next(name for name in names if name not in bound)
+
+    def width(pattern: Words) -> tuple[bool, float]:
+        loose = sum(t not in bound and t.startswith("?") for t in pattern[1:])
+        return loose == len(pattern) - 1 > 0, size[pattern[0]] * loose / len(pattern)
+
+    chosen = min(patterns, key=width)
+    patterns.remove(chosen)
+    return chosen
