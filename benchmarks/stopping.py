@@ -97,7 +97,7 @@ TRIALS = (
     ),
     Trial("experiment run, Ray", "experiment run {experiment} --out {out} --ray local", 15.0),
     Trial("vlm-server", "vlm-server --port 0", 4.0),
-    Trial("problems", "problems burger --out {out}.yaml", 3.0),
+    Trial("problems", "problems burger --out {out}.yaml", 1.5),
     Trial("study perception", "study perception burger --model openai:embedded"),
     Trial("study invention", "study invention burger --model openai:embedded"),
 )  # fmt: skip

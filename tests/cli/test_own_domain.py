@@ -6,11 +6,16 @@ import json
 import os
 import shutil
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 from command_line import command
+
+from skillwrapper.planning.kstar import KStar
+from skillwrapper.planning.planner import Planner
+from skillwrapper.runs import learned_model
 
 WORLD = Path(__file__).parents[1] / "support" / "cup_world"
 
@@ -179,3 +184,42 @@ def test_a_folder_without_a_domain_is_told(
             told
             == f"error: {tmp_path}: expected a domain.yaml in the folder of a domain, got none\n"
         )
+
+
+BROKEN = {
+    "exit 0": "ended as if it had found plans, and wrote none",
+    "echo out of memory; exit 22": "ran out of memory",
+    "kill -SEGV $$": "was ended by SIGSEGV",
+    "echo '[]' > plans.json": "wrote no plans that can be read",
+    "": "K* is not installed; pip install kstar-planner",
+}
+
+
+@pytest.mark.parametrize("script", BROKEN, ids=BROKEN.get)
+def test_a_broken_or_missing_planner_is_told(
+    folder: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    script: str,
+) -> None:
+    program = tmp_path / "planner"
+    program.write_text(f"#!/bin/sh\n{script}\n")
+    program.chmod(0o755)
+    planner = partial(Planner, engine=KStar(program if script else None))
+    monkeypatch.setattr(learned_model, "Planner", planner)
+    desk = ("--scene", "desk")
+    start, goal = tmp_path / "start.png", tmp_path / "goal.png"
+    assert command("render", "cups", *desk, "--out", start) == 0
+    assert command("render", "cups", *desk, "--do", "Fill(hand, mug)", "--out", goal) == 0
+    wanted = ("--goal", f"top={goal}", *desk)
+    for words in (("plan", "run", "--init", f"top={start}", *wanted), ("solve", "run", *wanted)):
+        capsys.readouterr()
+        assert command(*words, "--json") == 1
+        said = json.loads(capsys.readouterr().out)
+        assert (said["status"], said["plans"]) == ("error", [])
+        assert BROKEN[script] in said["error"]
+        assert command(*words) == 1
+        printed = capsys.readouterr()
+        assert BROKEN[script] in " ".join((printed.out + printed.err).split())
+        assert "Traceback" not in printed.err

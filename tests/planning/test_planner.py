@@ -364,8 +364,11 @@ def test_goal_about_what_is_not_in_the_scene() -> None:
 
 def test_missing_planner(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    result = Planner().solve(problem(STANDARD_GOALS[0]))
+    assert result.status is PlanningStatus.ERROR
+    assert result.cause == "the planner K* is not installed; pip install kstar-planner"
     with pytest.raises(MissingDependencyError, match="pip install kstar-planner"):
-        Planner()
+        KStar.installed().check_installed()
 
 
 @pytest.mark.parametrize("settings", [{"plans": 0}, {"time_limit": 0}, {"time": 3}])

@@ -25,6 +25,7 @@ _SYMMETRIES = (
     "sym=structural_symmetries(time_bound=0,search_symmetries=oss,"
     "stabilize_initial_state=false,keep_operator_symmetries=true)"
 )
+_HOW = "pip install kstar-planner"
 _PLANS_FILE = "plans.json"
 _WITH_PLANS = (0, 1, 2, 3)
 _WITHOUT_PLANS = (_PROVEN_UNSOLVABLE, _NONE_FOUND) = (11, 12)
@@ -78,25 +79,30 @@ class KStar:
     """K* on this machine.
 
     Attributes:
-        program: its search program.
+        program: its search program; None if there is none, which is the outcome of every search.
     """
 
-    program: Path
+    program: Path | None
 
     @classmethod
     def installed(cls) -> KStar:
-        """The K* of the package ``kstar-planner``.
-
-        Raises:
-            MissingDependencyError: if there is none.
-        """
+        """The K* of the package ``kstar-planner``."""
         spec = importlib.util.find_spec("kstar_planner")
         folders = spec.submodule_search_locations if spec else None
         for folder in folders or ():
             program = Path(folder, "builds", "release", "bin", "downward")
             if program.is_file():
                 return cls(program)
-        raise MissingDependencyError("the planner K*", "pip install kstar-planner")
+        return cls(None)
+
+    def check_installed(self) -> None:
+        """Make sure that there is a program, before much is done that needs it.
+
+        Raises:
+            MissingDependencyError: if there is none.
+        """
+        if self.program is None:
+            raise MissingDependencyError("the planner K*", _HOW)
 
     def search(self, problem: PlanningProblem, plans: int, seconds: float) -> SearchOutcome:
         """The cheapest plans; whatever goes wrong with the planner is an outcome, too.
@@ -106,6 +112,8 @@ class KStar:
             plans: how many plans at most.
             seconds: how long to search at most, the writing of the problem included.
         """
+        if self.program is None:
+            return self._broken(f"K* is not installed; {_HOW}")
         deadline = time.monotonic() + seconds
         text = print_sas(problem)
         remaining = deadline - time.monotonic()
@@ -128,7 +136,8 @@ class KStar:
         return SearchOutcome(_status(finished, found, share_of_time), found.plans, said)
 
     def _broken(self, cause: str, said: str = "") -> SearchOutcome:
-        log = f"the planner {self.program} {cause}\n{said}".strip()
+        named = f"{self.program} {cause}" if self.program else cause
+        log = f"the planner {named}\n{said}".strip()
         return SearchOutcome(PlanningStatus.ERROR, (), log)
 
     def command(self, problem: PlanningProblem, plans: int, seconds: float) -> tuple[str, ...]:

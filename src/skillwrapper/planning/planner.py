@@ -50,10 +50,7 @@ class Planner:
 
     Attributes:
         settings: how many plans, how long.
-        engine: the planner that does it.
-
-    Raises:
-        MissingDependencyError: if the planner is not installed.
+        engine: the planner that does it; one that is missing or breaks down is told as a status.
     """
 
     settings: PlannerSettings = field(default_factory=PlannerSettings)

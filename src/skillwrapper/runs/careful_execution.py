@@ -148,7 +148,7 @@ class CarefulExecution:
 
         Raises:
             ProviderError: if a model does not answer.
-            UserError: if no planner is installed, or the record cannot be written.
+            UserError: if the record cannot be written.
         """
         try:
             self._carry_out()

@@ -180,7 +180,7 @@ class LearnedModel:
             keep_files: a folder to write the problem into as PDDL.
 
         Raises:
-            UserError: if start or goal are not what they should be, or no planner is installed.
+            UserError: if start or goal are not what they should be.
             ProviderError: if a model does not answer.
         """
         state = start if isinstance(start, AbstractState) else self.read(start, scene=scene)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import pytest
 from pydantic import TypeAdapter
@@ -195,6 +196,13 @@ def test_planner_out_of_time() -> None:
     found = solver.solve(make_problem(CUT, START))
     assert (found.solved, found.claimed_impossible) == (False, False)
     assert found.cause is Cause.PLANNER_OUT_OF_TIME
+
+
+def test_a_broken_planner_is_not_one_out_of_time() -> None:
+    solver = solver_of(expert_model(), planner=Planner(engine=KStar(Path("/nowhere/planner"))))
+    found = solver.solve(make_problem(CUT, START))
+    assert (found.solved, found.cause) == (False, Cause.PLANNER_BROKEN)
+    assert "/nowhere/planner cannot be run" in found.detail
 
 
 def test_every_attempt_starts_anew() -> None:

@@ -6,6 +6,8 @@ The folder of the experiment must be on a file system that all machines of the c
 from __future__ import annotations
 
 import importlib
+import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +17,8 @@ from skillwrapper.errors import ConfigurationError, MissingDependencyError
 from skillwrapper.evaluation.benchmark.running import CellOutcome, Task, Workers, work
 from skillwrapper.evaluation.methods.cell import Cell
 
+_LOCAL = "local"
+_SLICE = 0.25
 _RETRIES = 3
 """How often Ray runs a cell again whose worker was killed."""
 
@@ -39,13 +43,27 @@ class RayWorkers:
 
     def next(self) -> CellOutcome:
         """Wait for the next cell to end."""
-        done, _ = self._ray.wait(list(self._cells), num_returns=1)
+        done: list[Any] = []
+        while not done:  # in slices: a signal is only heeded between two of them
+            done, _ = self._ray.wait(list(self._cells), num_returns=1, timeout=_SLICE)
         cell = self._cells.pop(done[0])
         try:
             outcome: CellOutcome = self._ray.get(done[0])
         except self._ray.exceptions.RayError as error:
             return CellOutcome(cell, f"Ray: {str(error).splitlines()[0]}")
         return outcome
+
+
+@contextmanager
+def _signals_kept() -> Iterator[None]:
+    """Put back who heeds signals: Ray takes SIGTERM for itself, and then ends without a word."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        if threading.current_thread() is threading.main_thread():
+            for number, handler in before.items():
+                signal.signal(number, handler)
 
 
 @contextmanager
@@ -66,8 +84,10 @@ def open_ray_workers(path: Path, address: str) -> Iterator[Workers]:
         raise MissingDependencyError("Ray", "pip install 'skillwrapper[ray]'") from error
     mine = not ray.is_initialized()
     if mine:
+        options = {"include_dashboard": False} if address == _LOCAL else {}
         try:
-            ray.init(address=address, log_to_driver=False, configure_logging=False)
+            with _signals_kept():
+                ray.init(address=address, log_to_driver=False, configure_logging=False, **options)
         except (ConnectionError, ValueError) as error:
             raise ConfigurationError(f"--ray {address}: found no Ray cluster ({error})") from error
     try:

@@ -74,9 +74,13 @@ class CellContext:
             reader: reads start and goal.
             truth: all states with labels without error, to tell causes; may be empty.
             calls: how many questions were put to models so far.
+
+        Raises:
+            MissingDependencyError: if the planner is not installed.
         """
         by_scene = {labelled.states.scene.name: labelled for labelled in truth}
         planner = Planner(self.settings.planner)
+        planner.engine.check_installed()
         return ModelSolver(self.world, model, reader, planner, by_scene, calls)
 
 

@@ -31,6 +31,8 @@ class Cause(StrEnum):
     """A skill that does not work is predicted to work."""
     PLANNER_OUT_OF_TIME = "planner out of time"
     """The planner found nothing in its time."""
+    PLANNER_BROKEN = "planner broken"
+    """The planner broke down, for want of memory for instance."""
     WRONGLY_IMPOSSIBLE = "claimed impossible"
     """The method says that there is no solution, and nothing else is known to be wrong."""
     WRONGLY_DONE = "claimed done"

@@ -23,6 +23,11 @@ from skillwrapper.planning.problem import PlanningProblem
 from skillwrapper.planning.result import PlanningResult, PlanningStatus
 from skillwrapper.symbols import AbstractModel
 
+_WITHOUT_AN_ANSWER = {
+    PlanningStatus.TIMEOUT: Cause.PLANNER_OUT_OF_TIME,
+    PlanningStatus.ERROR: Cause.PLANNER_BROKEN,
+}
+
 
 @dataclass(frozen=True)
 class _Task:
@@ -125,9 +130,9 @@ class ModelSolver:
         return report, judges.pop() if judges else Judge.ENVIRONMENT
 
     def _diagnose(self, task: _Task, found: PlanningResult, report: ExecutionReport) -> Diagnosis:
-        if found.status in (PlanningStatus.TIMEOUT, PlanningStatus.ERROR):
-            detail = f"{found.status} after {found.seconds:.1f} s"
-            return Diagnosis(Cause.PLANNER_OUT_OF_TIME, detail)
+        if found.status in _WITHOUT_AN_ANSWER:
+            detail = found.cause or f"{found.status} after {found.seconds:.1f} s"
+            return Diagnosis(_WITHOUT_AN_ANSWER[found.status], detail)
         truth = self.truth.get(self.world.environment.scene.name)
         if truth is None or task.goal is None or task.goal_labels is None:
             return _seen_from_outside(found, report)
