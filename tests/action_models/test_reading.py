@@ -102,6 +102,8 @@ def test_what_leaves_the_state_as_it_was_failed_if_it_is_said_so() -> None:
         ("(:action (wait))", "", "t:6", "expected an action between two states"),
         ("(at b1 home))\n)", "(at b1 home)", "t:10", "expected 2 ')'"),
         ("(:trajectory", "trajectory", "t:1", "expected a trace"),
+        ("(sail b1 p  home)", "(sail ?b p home)", "t:10", "name of an object, got '?b'"),
+        ("(:state (at b1 home))", "(:state (at ?b home))", "t:10", "got 'at ?b home'"),
     ],
 )
 def test_a_broken_trace(old: str, new: str, where: str, said: str) -> None:
@@ -110,6 +112,50 @@ def test_a_broken_trace(old: str, new: str, where: str, said: str) -> None:
         list(parse_trace(TRACE.replace(old, new), "t", SKELETON))
     assert where in str(caught.value)
     assert said in str(caught.value)
+
+
+def test_a_plan_alone_is_no_trace() -> None:
+    with pytest.raises(UserError, match=r"p:1: .* of a plan without states nothing"):
+        list(parse_trace("(sail b1 p home)\n(wait)\n", "p", SKELETON))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"arguments": ["b1", "p q", "home"]}, "name of an object, got 'p q'"),
+        ({"arguments": ["", "p", "home"]}, "name of an object, got ''"),
+        ({"before": ["at(b1 p)"]}, "name of an object, got 'b1 p'"),
+        ({"before": ["at(b1)"]}, "expected 2 terms of 'at', got 1"),
+        ({"before": ["at(b1, p"]}, "at(b1, p"),
+        ({"skill": "fly"}, "action 'fly'"),
+        ({"after": None}, "expected a value for 'after'"),
+        ({"succes": True}, "unknown key 'succes'"),
+    ],
+)
+def test_a_broken_line(change: dict[str, object], said: str, tmp_path: Path) -> None:
+    line = {"skill": "sail", "arguments": ["b1", "p", "home"], "success": True}
+    good = {**line, "before": ["at(b1, p)"], "after": ["at(b1, home)"]}
+    path = tmp_path / "t.jsonl"
+    path.write_text(f"{json.dumps(good)}\n\n{json.dumps({**good, **change})}\n")
+    said_of_it = _complaint(lambda: list(read_steps([path], SKELETON)))
+    assert said_of_it is not None
+    assert "t.jsonl:3" in said_of_it
+    assert said in said_of_it
+
+
+@settings(max_examples=150, deadline=None)
+@given(data=st.data())
+def test_no_damage_to_a_line_ends_in_a_traceback(
+    data: st.DataObject, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    text = _as_json(Step("sail", ("b1", "p", "home"), True, frozenset({"at b1 p"}), frozenset()))
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(text) - 1))
+        text = text[:at] + data.draw(st.sampled_from('"[]{}(),:a1?\\ ')) + text[at + 1 :]
+    path = tmp_path_factory.getbasetemp() / "damaged.jsonl"
+    path.write_text(text)
+    said = _complaint(lambda: list(read_steps([path], SKELETON)))
+    assert said is None or "damaged.jsonl:1" in said
 
 
 @pytest.mark.parametrize(
@@ -157,6 +203,27 @@ def test_as_an_algorithm_of_amlgym(tmp_path: Path) -> None:
     learned = SkillWrapper().learn(str(_domain(tmp_path)), [str(tmp_path / "0_traj")])
     assert ":precondition (and (storm))" in learned
     assert "(:action board" not in learned
+
+
+@pytest.mark.filterwarnings("ignore")  # of its parser
+def test_beside_amlgyms_own_algorithms(tmp_path: Path) -> None:
+    pytest.importorskip("amlgym")
+    from amlgym.metrics import syntactic_precision, syntactic_recall  # noqa: PLC0415
+
+    domain = _domain(tmp_path)
+    true = read_strips(domain)
+    (tmp_path / "0_traj").write_text(print_trace(list(walk(true, 300, seed=1, failures=False))))
+    learned = tmp_path / "learned.pddl"
+    learned.write_text(SkillWrapper().learn(str(domain), [str(tmp_path / "0_traj")]))
+    assert syntactic_recall(str(learned), str(domain))["mean"] == 1.0
+    assert syntactic_precision(str(learned), str(domain))["mean"] > 0.5
+
+
+def test_files_without_a_transition(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "walk").write_text("(:trajectory (:state (storm)))")
+    given = ("learn-operators", tmp_path / "walk", "--domain", _domain(tmp_path))
+    assert command(*given, "--out", tmp_path / "out") != 0
+    assert "expected at least one action between two states" in capsys.readouterr().err
 
 
 def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from skillwrapper.action_models.skeleton import DomainSkeleton
-from skillwrapper.action_models.steps import State, Step, check_atoms, check_step
+from skillwrapper.action_models.steps import State, Step, check_atoms, check_names, check_step
 from skillwrapper.errors import ConfigurationError, SymbolError
 from skillwrapper.files.json_documents import read_entries
 from skillwrapper.symbols.predicates import parse_atom
@@ -53,4 +53,6 @@ def _state(atoms: list[str] | Mapping[str, float | None], where: str) -> State:
         parsed = [parse_atom(atom.lower()) for atom in atoms]
     except SymbolError as error:
         raise ConfigurationError(f"{where}: {error}") from error
+    for atom in parsed:
+        check_names(atom.terms, where)
     return frozenset(" ".join((atom.predicate, *atom.terms)) for atom in parsed)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from skillwrapper.action_models.skeleton import DomainSkeleton
 from skillwrapper.errors import FileError, UnknownNameError
+
+_NAME = re.compile(r"[^\s()?;]+")
 
 State = frozenset[str]
 """The true ground atoms as words with one blank between them; all others are false."""
@@ -33,7 +37,7 @@ class Step:
 
 
 def check_step(skeleton: DomainSkeleton, step: Step) -> None:
-    """Raise ``UserError`` if a domain has no such action with so many arguments."""
+    """Raise ``UserError`` if a domain has no such action with so many names as arguments."""
     action = skeleton.actions.get(step.action)
     if action is None:
         raise UnknownNameError("action", step.action, skeleton.actions, step.where)
@@ -42,6 +46,14 @@ def check_step(skeleton: DomainSkeleton, step: Step) -> None:
             f"{step.where}: expected {len(action.parameters)} arguments of '{step.action}', "
             f"got {len(step.arguments)}"
         )
+    check_names(step.arguments, step.where)
+
+
+def check_names(names: Iterable[str], where: str) -> None:
+    """Raise ``UserError`` if something is no name of an object: empty, a variable, or several."""
+    for name in names:
+        if not _NAME.fullmatch(name):
+            raise FileError(f"{where}: expected the name of an object, got '{name}'")
 
 
 def check_atoms(skeleton: DomainSkeleton, state: State, where: str) -> None:
@@ -55,3 +67,6 @@ def check_atoms(skeleton: DomainSkeleton, state: State, where: str) -> None:
                 f"{where}: expected {len(predicate.parameters)} terms of '{words[0]}', "
                 f"got {words[1]}"
             )
+    variable = next((atom for atom in state if "?" in atom), None)
+    if variable is not None:
+        raise FileError(f"{where}: expected names of objects, got '{variable}'")

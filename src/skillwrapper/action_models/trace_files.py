@@ -87,7 +87,10 @@ def _sections(text: str, name: str) -> Iterator[tuple[str, str, str]]:
     """Kind, content and place of all sections, in order."""
     start = _START.match(text, len(text) - len(text.lstrip()))
     if start is None:
-        raise FileError(f"{name}:1: expected a trace '(:trajectory (:state ...) ...)'")
+        raise FileError(
+            f"{name}:1: expected a trace '(:trajectory (:state ...) (:action ...) (:state ...))'; "
+            "of a plan without states nothing can be learned"
+        )
     heads = list(_SECTION.finditer(text, start.end()))
     line, counted = 1, 0
     for number, head in enumerate(heads):

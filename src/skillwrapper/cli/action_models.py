@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -14,6 +15,7 @@ from skillwrapper.action_models.reading import read_steps
 from skillwrapper.action_models.settings import ActionModelSettings
 from skillwrapper.action_models.skeleton_files import read_skeleton
 from skillwrapper.cli.output import print_json, results
+from skillwrapper.errors import FileError
 from skillwrapper.files.writing import write_atomically, write_json
 
 
@@ -39,7 +41,11 @@ def learn_from_traces(
     given = {} if negatives is None else {"negatives": negatives.value}
     settings = ActionModelSettings.model_validate(given)
     skeleton = read_skeleton(domain)
-    model = learn_action_models(skeleton, read_steps(traces, skeleton, failures=failures), settings)
+    steps = read_steps(traces, skeleton, failures=failures)
+    first = next(steps, None)
+    if first is None:
+        raise FileError(f"{traces[0]}: expected at least one action between two states, got none")
+    model = learn_action_models(skeleton, itertools.chain([first], steps), settings)
     write_atomically(out / "domain.pddl", print_model(model))
     write_json(out / "action_models.json", _figures(model))
     if as_json:
