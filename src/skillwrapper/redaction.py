@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -69,6 +70,14 @@ def redact(text: str) -> str:
     text = _AFTER_A_SCHEME.sub(rf"\g<1>{MARK}", text)
     text = _PRIVATE_KEY.sub(rf"\g<1>{MARK}", text)
     return _FORMS.sub(MARK, text)
+
+
+def without_secrets(text: str) -> str:
+    """The text without what this process was given as secrets, and what has the form of one.
+
+    For what robots, people and libraries say: they may know the environment, too.
+    """
+    return Redactor.knowing((), os.environ).redact(text) if text else text
 
 
 def strip_user_info(text: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from base64 import b64encode
@@ -19,6 +20,7 @@ from skillwrapper.embedded.server import ServerSettings, VlmServer
 from skillwrapper.embedded.server_faults import FaultPlan
 from skillwrapper.redaction import MARK, Redactor, redact
 
+CUPS = Path(__file__).parents[1] / "support" / "cup_world"
 KEY = "planted-key-4711"  # has no known form: only knowing it helps
 PASSWORD = "planted-pass-0815"
 PROXY = "planted-proxy-2342"
@@ -122,6 +124,46 @@ def test_addresses_with_secrets(tmp_path: Path) -> None:
     lines = [("doctor", *place) for place in places]
     lines += [("learn", "burger", "--out", "run", *place) for place in places]
     assert_clean(run(tmp_path, *lines), tmp_path)
+
+
+LEAKY = """
+    def obstacle(self, state, instance):
+        if pathlib.Path("broken").exists():
+            raise ValueError(dict(os.environ))
+        if pathlib.Path("jammed").exists():
+            return f"jammed: {dict(os.environ)}"
+"""
+"""A robot that tells its environment when it fails."""
+
+
+def test_a_robot_that_tells_its_environment(tmp_path: Path) -> None:
+    shutil.copytree(CUPS, tmp_path / "cups", ignore=shutil.ignore_patterns("__pycache__"))
+    robot = tmp_path / "cups" / "robot.py"
+    text = robot.read_text().replace("\n    def obstacle(self, state, instance):\n", LEAKY)
+    text = text.replace('"nothing to do"', 'f"nothing to do: {dict(os.environ)}"')
+    robot.write_text(f"import os\nimport pathlib\n\n{text}")
+    wanted = ("--goal", "top=full.png", "--scene", "desk")
+    said = run(
+        tmp_path,
+        ("learn", "cups", "--out", "run", "--iterations", "3", "--budget", "8"),
+        ("render", "cups", "--scene", "desk", "--do", "Fill(hand, mug)", "--out", "full.png"),
+    )
+    assert "nothing to do" in "".join(
+        path.read_text() for path in (tmp_path / "run" / "episodes").iterdir()
+    )
+    for state in ("jammed", "broken"):
+        (tmp_path / state).touch()
+        said += run(
+            tmp_path,
+            ("execute", "run", "--yes", "--replan", *wanted),
+            ("solve", "run", *wanted),
+            ("learn", "cups", "--out", f"{state}-run", "--iterations", "1", "--budget", "4"),
+            ("check", "cups", "--steps", "3"),
+            ("report", "run"),
+        )
+    assert "jammed" in said
+    assert MARK in said
+    assert_clean(said, tmp_path)
 
 
 FORMS = [

@@ -28,9 +28,10 @@ from skillwrapper.cli import (
     verification,
 )
 from skillwrapper.cli.output import messages
+from skillwrapper.cli.own_code import place_in_own_code
 from skillwrapper.cli.stopping import stoppable
-from skillwrapper.errors import InternalError, LimitReachedError, SkillWrapperError
-from skillwrapper.redaction import redact
+from skillwrapper.errors import InternalError, LimitReachedError, RobotError, SkillWrapperError
+from skillwrapper.redaction import without_secrets
 
 app = typer.Typer(
     name="skillwrapper",
@@ -68,12 +69,22 @@ def main() -> None:
 
 
 def run() -> None:
-    """Run the command line; a mistake of the user's ends with one sentence and exit code 2."""
+    """Run the command line; a mistake of the user's ends with one sentence.
+
+    So does one in code that they bring along.
+    """
     try:
         app()
     except SkillWrapperError as error:
         _tell(error)
         sys.exit(error.exit_code)
+    except Exception as error:
+        place = place_in_own_code(error)
+        if place is None:
+            raise
+        told = RobotError(f"{place}: {type(error).__name__}: {error}")
+        _tell(told)
+        sys.exit(told.exit_code)
 
 
 def _tell(error: SkillWrapperError) -> None:
@@ -83,7 +94,9 @@ def _tell(error: SkillWrapperError) -> None:
     elif isinstance(error, InternalError):
         kind = "internal error:"
     # Redacted once more: whatever a library wrote into a message, this is where it is seen.
-    messages().print(Text.assemble((kind, colour), " ", redact(str(error))), soft_wrap=True)
+    messages().print(
+        Text.assemble((kind, colour), " ", without_secrets(str(error))), soft_wrap=True
+    )
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ from skillwrapper.planning.execution import ExecutionReport, attempt
 from skillwrapper.planning.gif import save_gif
 from skillwrapper.planning.goals import Goal
 from skillwrapper.planning.result import PlanningResult, PlanningStatus
+from skillwrapper.redaction import without_secrets
 from skillwrapper.runs.learned_model import LearnedModel, is_picture_file
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.pictures import load_pictures
@@ -180,7 +181,7 @@ def _print_solution(found: PlanningResult, report: ExecutionReport, gif: Path) -
         return
     last = report.attempts[-1]
     for instance, outcome in zip(last.plan, last.outcomes, strict=False):
-        done = "done" if outcome.success else f"failed: {outcome.message}"
+        done = "done" if outcome.success else f"failed: {without_secrets(outcome.message)}"
         console.print(f"  {instance}: {done}")
     if report.solved:
         console.print(f"solved with plan {report.budget}", style="green")

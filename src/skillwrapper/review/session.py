@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from skillwrapper.errors import ConfigurationError, UnknownNameError
+from skillwrapper.redaction import without_secrets
 from skillwrapper.report.page import page_environment
 from skillwrapper.review.doubts import review_pictures
 from skillwrapper.runs.archive import RunArchive, reserved
@@ -91,7 +92,7 @@ class Review:
             case "rename":
                 return self._read_renaming(self._known(form), form.get("to", "").strip())
             case "reword":
-                meaning = " ".join(form.get("semantics", "").split())
+                meaning = without_secrets(" ".join(form.get("semantics", "").split()))
                 if not meaning:
                     raise ConfigurationError(
                         "expected a sentence that says what it means, got none"

@@ -17,6 +17,7 @@ from skillwrapper.errors import EmergencyStopError, RobotError
 from skillwrapper.grounding import TRUE, UNKNOWN
 from skillwrapper.planning.goals import Goal
 from skillwrapper.planning.result import SkillPlan
+from skillwrapper.redaction import without_secrets
 from skillwrapper.robots.guarded import check_halted, execute_guarded
 from skillwrapper.runs.abstract_states import AbstractState
 from skillwrapper.runs.execution_records import ExecutionRecord, Surprise
@@ -212,7 +213,7 @@ class CarefulExecution:
             outcome = execute_guarded(self._environment, instance, self._settings.skill_limit)
             after = outcome.observation
             done = Transition(now.observation, instance, outcome.success, after, outcome.changed)
-            self._note_executed(now.state, done, outcome.message)
+            self._note_executed(now.state, done, without_secrets(outcome.message))
             expected = self._learned.expected(now.state, instance).state
             now = self._settle(expected if outcome.success else now.state, after)
             if now.differences or not outcome.success:
@@ -265,4 +266,4 @@ class CarefulExecution:
         self._tell(f"surprise: {surprise}")
 
     def _end(self, ending: Ending, reason: str = "") -> None:
-        self.report.ending, self.report.reason = ending, reason
+        self.report.ending, self.report.reason = ending, without_secrets(reason)

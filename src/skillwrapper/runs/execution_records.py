@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.files.writing import append_line
+from skillwrapper.redaction import without_secrets
 from skillwrapper.runs.archive import EpisodeFile
 from skillwrapper.runs.archive.layout import RunLayout
 from skillwrapper.symbols.predicates import Literal
@@ -64,8 +65,9 @@ class ExecutionRecord:
         return self._log
 
     def note(self, event: str, **told: Any) -> None:
-        """Put a line into the log."""
-        append_line(self._log, {"event": event, **told})
+        """Put a line into the log; what a robot says in it is searched for secrets."""
+        plain = {name: _without(value) for name, value in told.items()}
+        append_line(self._log, {"event": event, **plain})
 
     def plan(self, steps: Iterable[SkillInstance]) -> None:
         """Note a plan."""
@@ -90,6 +92,10 @@ class ExecutionRecord:
         self._episode.add(done, self._seen or done.before, message)
         self._seen = done.after
         self.note("executed", skill=str(done.instance), success=done.success, message=message)
+
+
+def _without(value: Any) -> Any:
+    return without_secrets(value) if isinstance(value, str) else value
 
 
 def _next_log(layout: RunLayout) -> Path:

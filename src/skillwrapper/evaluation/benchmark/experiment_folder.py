@@ -29,7 +29,7 @@ from skillwrapper.evaluation.published import PublishedResults, published_figure
 from skillwrapper.files.json_documents import read_records
 from skillwrapper.files.writing import append_line, is_leftover, remove_leftovers, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
-from skillwrapper.redaction import redact
+from skillwrapper.redaction import without_secrets
 from skillwrapper.runs.provenance import provenance
 
 ERROR = "error.txt"
@@ -102,7 +102,7 @@ class ExperimentFolder:
         """Note that a command runs what is not finished yet, and with which code."""
         if any(not self.is_finished(cell) for cell in self.experiment().cells):
             made_with = provenance().model_dump(mode="json")
-            line = {"command": redact(command), "made_with": made_with}
+            line = {"command": without_secrets(command), "made_with": made_with}
             append_line(self.path / _RUNS, line)
 
     def runs(self) -> tuple[CommandRecord, ...]:

@@ -20,7 +20,7 @@ from skillwrapper.evaluation.methods.cell import Cell, domain_key
 from skillwrapper.evaluation.methods.method import CellContext
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.files.writing import remove_leftovers, write_atomically
-from skillwrapper.redaction import redact
+from skillwrapper.redaction import without_secrets
 
 
 @dataclass(frozen=True)
@@ -102,8 +102,8 @@ def work(path: Path, cell: Cell) -> CellOutcome:
         _run(folder, cell)
     except Exception as error:  # one broken cell must not take the others along
         ours = isinstance(error, SkillWrapperError)
-        told = redact(str(error) if ours else f"{type(error).__name__}: {error}")
-        write_atomically(error_file, f"{told}\n\n{redact(traceback.format_exc())}")
+        told = without_secrets(str(error) if ours else f"{type(error).__name__}: {error}")
+        write_atomically(error_file, f"{told}\n\n{without_secrets(traceback.format_exc())}")
         return CellOutcome(cell, told)
     error_file.unlink(missing_ok=True)
     return CellOutcome(cell)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from skillwrapper.files.json_documents import whole_lines
 from skillwrapper.files.writing import append_line, json_line, write_atomically
-from skillwrapper.redaction import redact
+from skillwrapper.redaction import without_secrets
 from skillwrapper.runs.archive.layout import RunLayout
 from skillwrapper.runs.archive.pictures import PictureStore
 from skillwrapper.runs.archive.records import EpisodeRecord, ExecutionRecord, SceneRecord
@@ -59,7 +59,7 @@ class EpisodeFile:
             skill=transition.instance.skill,
             arguments=transition.instance.arguments,
             success=transition.success,
-            message=redact(message),
+            message=without_secrets(message),
             before=self._pictures.save(transition.before) if moved else None,
             after=self._pictures.save(transition.after),
             changed=transition.changed,
