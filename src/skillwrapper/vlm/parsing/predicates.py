@@ -23,7 +23,7 @@ _NULLARY = re.compile(
 )
 _BARE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]{0,40}(?:_[A-Za-z0-9]{1,40}){1,8}")
 _SEPARATOR = re.compile(
-    r"[\"']? ?(?:[:=|;.-]|->|=>|:=|means\b|iff\b|is true (?:if|when|iff)\b)[ :=|>-]{0,8}"
+    r"[\"']? ?(?:[:=|;.-]|#{1,3}|//|->|=>|:=|means\b|iff\b|is true (?:if|when|iff)\b)[ :=|>-]{0,8}"
 )
 _MEANING = re.compile(
     r"(?:semantics?|semantic meaning|meaning|definition|description|explanation|true when)"

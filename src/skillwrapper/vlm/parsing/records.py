@@ -39,8 +39,10 @@ _REASONS = words_of(
 _FIELDS = frozenset((*NAMES, *ARGUMENTS, *_VALUES, *_MEANINGS, *_REASONS))
 _VERDICT_FIELDS = {
     "true": "true",
+    "t": "true",
     "yes": "true",
     "false": "false",
+    "f": "false",
     "no": "false",
     "unsure": "unsure",
     "unknown": "unsure",

@@ -108,6 +108,7 @@ def _starts_by_paragraph(lines: list[_Listed]) -> list[bool]:
             and last_number is not None
             and line.line.number <= last_number
         )
+        restarts = restarts or line.line.whole.startswith("- - ")  # a list in a list, in YAML
         starts.append(restarts or not line.line.text or set(line.line.text) <= set("[]{}, "))
         if line.line.number is not None:
             last_number = line.line.number

@@ -128,7 +128,8 @@ _LETTER = rf"(?:[^\W_]|[{MARKS_OF_SCRIPTS}])"
 _WORD = re.compile(rf"n/a|{_LETTER}++(?:['-]{_LETTER}++){{0,8}}|[{_MARKS}¬]", re.I)
 _SENTENCE_END = re.compile(r"[.;!?](?= |$)")
 _BOX = re.compile(r"\[ ?([xX✓✔]?) ?\]")
-_NOT_IN_FRONT = re.compile(r"(?:\bnot |[¬~]|(?:^|(?<=[ (]))!) ?\(?$", re.IGNORECASE)
+_NOT_IN_FRONT = re.compile(r"(?:\bnot(?: |(?=\())|[¬~]|(?:^|(?<=[ (]))!) ?\(?$", re.IGNORECASE)
+_ANSWER_NUMBER = re.compile(r"a\d{1,3}")
 _LONGEST = 400
 _PHRASE_STARTS_BY = 24
 _CLAUSE, _FEW = 60, 3
@@ -301,7 +302,7 @@ def _phrase(words: Sequence[str], *, in_front: bool = False) -> Reading:
             negated = not negated
         elif word.isdigit() and all(w.isdigit() for w in words):
             return Said.NUMBER
-        elif word not in _SMALL and word != "longer":
+        elif word not in _SMALL and word != "longer" and not _ANSWER_NUMBER.fullmatch(word):
             return Said.NOTHING
     return Said.NOTHING if negated else Said.FILLING
 
