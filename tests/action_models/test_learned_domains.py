@@ -8,8 +8,10 @@ import pytest
 from planning_domains import (
     FERRY,
     LAMPS,
+    LOCKS,
     MINE,
     OBJECTS,
+    POST,
     STARTS,
     instances,
     strips_of,
@@ -44,12 +46,14 @@ def _states(domain: Strips) -> set[frozenset[str]]:
     return found
 
 
-@pytest.mark.parametrize("text", [FERRY, LAMPS], ids=["boats", "lamps"])
+@pytest.mark.parametrize(
+    "text", [FERRY, LAMPS, LOCKS, POST], ids=["boats", "lamps", "locks", "post"]
+)
 @pytest.mark.parametrize("failures", [False, True], ids=["successes", "failures"])
 def test_the_learned_domain_is_the_true_one(text: str, failures: bool, tmp_path: Path) -> None:
     true = strips_of(text, tmp_path)
     objects = OBJECTS[true.skeleton.name]
-    steps = list(walk(true, 1500, seed=1, failures=failures))
+    steps = list(walk(true, 2500, seed=1, failures=failures))
     learned = _printed(learn_action_models(true.skeleton, steps), tmp_path)
     for state in _states(true):
         applicable = set(true.applicable(state, objects))

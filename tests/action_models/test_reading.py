@@ -13,6 +13,8 @@ from hypothesis import strategies as st
 from planning_domains import FERRY, strips_of, walk
 
 from skillwrapper.action_models.amlgym import SkillWrapper
+from skillwrapper.action_models.learner import learn_action_models
+from skillwrapper.action_models.printing import print_model
 from skillwrapper.action_models.reading import read_steps
 from skillwrapper.action_models.skeleton_files import parse_skeleton, read_skeleton
 from skillwrapper.action_models.steps import Step
@@ -82,6 +84,21 @@ def test_other_ways_to_write_a_trace() -> None:
     assert [(s.action, s.before, s.after) for s in found] == [
         (s.action, s.before, s.after) for s in usual
     ]
+
+
+def test_numbers_are_read_over_and_their_functions_kept() -> None:
+    domain = FERRY.replace(
+        "(:action sail", "(:functions (cost) - number (fuel ?b - boat))\n(:action sail"
+    )
+    skeleton = parse_skeleton(domain, "boats.pddl")
+    counted = TRACE.replace(
+        "(:state (at b1 home))", "(:state (= (cost) 3) (at b1 home) (= (fuel b1) 0.5))"
+    )
+    steps = list(parse_trace(counted, "t", skeleton))
+    assert steps[-1].after == {"at b1 home"}
+    printed = print_model(learn_action_models(skeleton, steps))
+    assert "(cost) - number (fuel ?b - boat)" in printed
+    assert parse_skeleton(printed, "printed").functions == skeleton.functions
 
 
 def test_what_leaves_the_state_as_it_was_failed_if_it_is_said_so() -> None:

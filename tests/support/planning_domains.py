@@ -56,13 +56,59 @@ MINE = """
 """
 """An action that ends what few objects have and nothing else changes."""
 
+LOCKS = """
+(define (domain locks) (:requirements :typing :negative-preconditions)
+(:types chamber barge level)
+(:constants low high - level)
+(:predicates (water ?c - chamber ?l - level) (gate ?c - chamber ?l - level)
+  (inside ?b - barge ?c - chamber) (waiting ?b - barge ?l - level) (busy))
+(:action pump :parameters (?c - chamber ?from ?to - level)
+  :precondition (and (water ?c ?from) (not (gate ?c low)) (not (gate ?c high)))
+  :effect (and (not (water ?c ?from)) (water ?c ?to) (busy)))
+(:action rest :parameters () :precondition (busy) :effect (not (busy)))
+(:action swing :parameters (?c - chamber ?l - level)
+  :precondition (and (water ?c ?l) (not (gate ?c ?l)) (not (busy))) :effect (gate ?c ?l))
+(:action shut :parameters (?c - chamber ?l - level)
+  :precondition (gate ?c ?l) :effect (not (gate ?c ?l)))
+(:action enter :parameters (?b - barge ?c - chamber ?l - level)
+  :precondition (and (waiting ?b ?l) (gate ?c ?l))
+  :effect (and (not (waiting ?b ?l)) (inside ?b ?c)))
+(:action leave :parameters (?b - barge ?c - chamber ?l - level)
+  :precondition (and (inside ?b ?c) (gate ?c ?l))
+  :effect (and (waiting ?b ?l) (not (inside ?b ?c)))))
+"""
+"""Negative preconditions about constants, and levels that may be named twice."""
+
+POST = """
+(define (domain post) (:requirements :typing :adl)
+(:types van bike letter - object)
+(:predicates (at ?x - (either van bike) ?o - letter) (paid ?o - letter) (valid ?o - letter)
+  (linked ?a ?b - van) (free ?a - van) (rain))
+(:action pair :parameters (?a ?b - van) :precondition (and (free ?a) (free ?b) (not (= ?a ?b)))
+  :effect (and (linked ?a ?b) (linked ?b ?a) (not (free ?a)) (not (free ?b))))
+(:action part :parameters (?a ?b - van) :precondition (linked ?a ?b)
+  :effect (and (not (linked ?a ?b)) (not (linked ?b ?a)) (free ?a) (free ?b)))
+(:action stamp :parameters (?o - letter) :precondition (not (valid ?o))
+  :effect (and (when (paid ?o) (valid ?o)) (not (rain)) (when (rain) (not (paid ?o)))))
+(:action pay :parameters (?o - letter) :precondition (not (paid ?o)) :effect (paid ?o))
+(:action void :parameters (?o - letter)
+  :precondition (valid ?o) :effect (and (not (valid ?o)) (rain)))
+(:action hand :parameters (?o - letter ?x ?y - (either van bike))
+  :precondition (at ?x ?o) :effect (and (not (at ?x ?o)) (at ?y ?o))))
+"""
+"""Types of which one is enough, symmetric relations, and two conditional effects of one action."""
+
 OBJECTS = {
+    "locks": {"c": "chamber", "d": "chamber", "b": "barge"},
+    "post": {"v": "van", "w": "van", "x": "bike", "o": "letter"},
     "mine": {"a": "cell", "b": "cell"},
     "boats": {"b1": "boat", "b2": "boat", "c1": "car", "c2": "car", "p": "harbour", "q": "harbour"},
     "lamps": {"s1": "switch", "s2": "switch", "s3": "switch", "l1": "lamp", "l2": "lamp"},
 }
 
 STARTS = {
+    "locks": frozenset({"water c low", "water d high", "waiting b low"}),
+    "post": frozenset({"at x o", "free v", "free w", "paid o"}),
     "mine": frozenset({"loose a", "gold b"}),
     "boats": frozenset({"at b1 p", "at b2 home", "at c1 p", "at c2 q"}),
     "lamps": frozenset({"up s1", "up s2", "wired s1 l1", "wired s2 l1", "wired s3 l2"}),

@@ -133,7 +133,7 @@ class Join:
 
     def _choices(self, stage: _Stage, binding: dict[str, str]) -> Iterable[Words]:
         if stage.pattern[0] == EQUAL:
-            return ((EQUAL, name) for name in self._allowed[stage.pattern[1]])
+            return ((EQUAL, name) for name in sorted(self._allowed[stage.pattern[1]]))
         terms = tuple([binding.get(term, term) for term in stage.known])
         return self._facts.matching(stage.pattern[0], stage.places, terms)
 

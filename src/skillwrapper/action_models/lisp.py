@@ -40,6 +40,9 @@ class Form:
                 raise FileError(f"{item.where}: expected a word, got a list")
         return [item for item in self.items if isinstance(item, str)]
 
+    def __str__(self) -> str:
+        return f"({' '.join(map(str, self.items))})"
+
     @property
     def forms(self) -> list[Form]:
         """The lists in it."""

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from skillwrapper.action_models.models import ActionModel, DomainModel, Effect
 from skillwrapper.action_models.skeleton import ROOT, Schema, TypedName
 
+_NUMERIC = frozenset({":action-costs", ":fluents", ":numeric-fluents"})
+
 
 def print_model(model: DomainModel) -> str:
     """The domain; equal models give equal text."""
@@ -18,6 +20,7 @@ def print_model(model: DomainModel) -> str:
     parts += _section(":types", (_typed(t) for t in types))
     parts += _section(":constants", (_typed(t) for t in skeleton.constants))
     parts += _section(":predicates", map(_predicate, skeleton.predicates.values()))
+    parts += _section(":functions", [" ".join(skeleton.functions)] if skeleton.functions else [])
     parts += [_action(model.actions[name]) for name in skeleton.actions if name in model.actions]
     return f"(define (domain {skeleton.name})\n" + "\n".join(parts) + "\n)\n"
 
@@ -33,6 +36,8 @@ def _requirements(model: DomainModel) -> Iterator[str]:
         yield ":equality"
     if any(e.when for e in effects):
         yield ":conditional-effects"
+    if model.skeleton.functions:
+        yield from sorted(model.skeleton.requirements & _NUMERIC)
 
 
 def _section(head: str, lines: Iterable[str]) -> list[str]:

@@ -70,6 +70,7 @@ class DomainSkeleton:
         predicates: by name.
         actions: by name.
         requirements: what the domain says it makes use of.
+        functions: numeric ones, as they are declared; problems may set them, nothing is learned.
     """
 
     name: str
@@ -78,6 +79,7 @@ class DomainSkeleton:
     predicates: Mapping[str, Schema] = field(default_factory=dict)
     actions: Mapping[str, Schema] = field(default_factory=dict)
     requirements: frozenset[str] = frozenset()
+    functions: tuple[str, ...] = ()
 
     @property
     def has_negatives(self) -> bool:

@@ -59,6 +59,7 @@ class _Reader:
             self._schemas((p, p.items) for f in self._sections(":predicates") for p in f.forms),
             self._schemas((a, self._signature(a)) for a in self._sections(":action")),
             frozenset(w for f in self._sections(":requirements") for w in f.words),
+            tuple(str(item) for f in self._sections(":functions") for item in f.items[1:]),
         )
         if not skeleton.actions:
             raise FileError(f"{self._form.where}: expected at least one '(:action NAME ...)'")

@@ -2,8 +2,8 @@
 
 ``(:trajectory (:state (on a b) ...) (:action (stack a b)) (:state ...) ...)`` is AMLGym's way.
 Beside it are read ``(:init ...)`` for the first state, ``(operator: ...)`` for an action,
-``(trajectory ...)`` and ``(:observation ...)`` for the whole, ``(:objects ...)``, and negated
-atoms in states, which say nothing new.
+``(trajectory ...)`` and ``(:observation ...)`` for the whole, ``(:objects ...)``, negated atoms in
+states, which say nothing new, and numbers, of which nothing is learned.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ _COMMENT = re.compile(r";[^\n]*")
 _START = re.compile(r"\(\s*(?::?(?:trajectory|observation))?\s*(?=[(])")
 _SECTION = re.compile(r"\(\s*(:state|:init|:objects|:action|operator:)(?=[\s()])")
 _NEGATED = re.compile(r"\(\s*not\s*\([^()]*\)\s*\)")
+_NUMBER = re.compile(r"\(\s*=\s*\([^()]*\)\s*[^()\s]+\s*\)")
 _ATOM = re.compile(r"\(([^()]*)\)")
 _ATOMS = re.compile(r"(?:\s*\([^()]*\))*\s*")
 _AND = re.compile(r"\s*\(\s*and((?:\s*\([^()]*\))*)\s*\)\s*")
@@ -115,6 +116,8 @@ def _state(content: str, where: str) -> State:
     conjunction = _AND.fullmatch(content)
     if conjunction:
         content = conjunction[1]
+    if "=" in content:
+        content = _NUMBER.sub("", content)
     if "not" in content:
         content = _NEGATED.sub("", content)
     if not _ATOMS.fullmatch(content):

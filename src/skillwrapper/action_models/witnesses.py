@@ -76,29 +76,52 @@ class Witnesses:
         ]
 
     def _fit(self, parameter: TypedName) -> Iterator[frozenset[str]]:
-        """For every state the objects that may stand for a parameter."""
-        fits = {
-            slot: self._skeleton.fits(slot, parameter) for _, slot in itertools.chain(*self._slots)
-        }
+        """For every state the objects that may stand for a parameter, as far as is known."""
+        slots = {slot for filled in self._slots for own in filled.values() for slot in own}
+        may = {slot for slot in slots if self._overlap(slot, parameter)}
         for filled in self._slots:
-            yield frozenset(name for name, slot in filled if fits[slot])
+            yield frozenset(
+                name
+                for name, own in filled.items()
+                if may.issuperset(self._anywhere.get(name, own))
+            )
+
+    def _overlap(self, first: TypedName, second: TypedName) -> bool:
+        """Whether one thing may stand in both places."""
+        return self._skeleton.fits(first, second) or self._skeleton.fits(second, first)
+
+    @cached_property
+    def _anywhere(self) -> dict[str, set[TypedName]]:
+        """The places in which objects stand in any state; not of names of different things."""
+        found: dict[str, set[TypedName]] = {}
+        for filled in self._slots:
+            for name, slots in filled.items():
+                found.setdefault(name, set()).update(slots)
+        return {
+            name: slots
+            for name, slots in found.items()
+            if all(self._overlap(a, b) for a, b in itertools.combinations(slots, 2))
+        }
 
     @cached_property
     def _facts(self) -> list[Facts]:
         return [Facts(state) for state in self._states]
 
     @cached_property
-    def _slots(self) -> list[_Filled]:
-        """For every state its objects and what they may stand for."""
-        constants = {(constant.name, constant) for constant in self._skeleton.constants}
-        return [
-            constants.union(given, *(self._filled(atom) for atom in state))
-            for state, given in self._states.items()
-        ]
+    def _slots(self) -> list[dict[str, set[TypedName]]]:
+        """For every state its objects and the places in which they stand."""
+        return [self._filled(state, given) for state, given in self._states.items()]
 
-    def _filled(self, atom: str) -> Iterable[tuple[str, TypedName]]:
-        predicate, *terms = atom.split(" ")
-        return zip(terms, self._skeleton.predicates[predicate].parameters, strict=True)
+    def _filled(self, state: State, given: _Filled) -> dict[str, set[TypedName]]:
+        found = {constant.name: {constant} for constant in self._skeleton.constants}
+        for name, slot in given:
+            found.setdefault(name, set()).add(slot)
+        for atom in state:
+            predicate, *terms = atom.split(" ")
+            slots = self._skeleton.predicates[predicate].parameters
+            for name, slot in zip(terms, slots, strict=True):
+                found.setdefault(name, set()).add(slot)
+        return found
 
 
 @dataclass(frozen=True, eq=False)
