@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
 from pydantic import BaseModel, ConfigDict, Field
 
 from skillwrapper.errors import ConfigurationError, FileError
-from skillwrapper.files.json_documents import read_json, read_lines, read_records
+from skillwrapper.files import json_documents
+from skillwrapper.files.bounded import read_bounded
+from skillwrapper.files.json_documents import (
+    read_json,
+    read_lines,
+    read_records,
+    read_text,
+    whole_lines,
+)
 from skillwrapper.files.yaml_documents import YamlDocument
 
 
@@ -62,6 +72,23 @@ def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:
     for name, message in (("nothing", "No such file"), ("binary", "UTF-8"), (".", "directory")):
         with pytest.raises(FileError, match=message):
             read_json(tmp_path / name, Whole)
+
+
+@pytest.mark.parametrize("read", [read_text, whole_lines])
+def test_a_file_without_an_end(
+    read: Callable[[Path], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From a fault found by use: a device named by mistake took all memory."""
+    monkeypatch.setattr(json_documents, "read_bounded", partial(read_bounded, most=1 << 20))
+    with pytest.raises(FileError, match=r"/dev/zero: cannot be read \(File too large\)"):
+        read(Path("/dev/zero"))
+
+
+def test_a_file_that_is_larger_than_any_sensible_one(tmp_path: Path) -> None:
+    (tmp_path / "large").write_bytes(b"123456")
+    assert read_bounded(tmp_path / "large", 6) == b"123456"
+    with pytest.raises(OSError, match="too large"):
+        read_bounded(tmp_path / "large", 5)
 
 
 def test_lines_that_do_not_fit_are_named(tmp_path: Path) -> None:

@@ -11,7 +11,14 @@ import pytest
 from PIL import Image
 
 from skillwrapper.errors import PictureError
-from skillwrapper.world import Observation, Picture, encode_png, load_picture, observation_of
+from skillwrapper.world import (
+    Observation,
+    Picture,
+    encode_png,
+    load_picture,
+    observation_of,
+    pictures,
+)
 from skillwrapper.world.pictures import load_pictures, picture_of
 
 
@@ -157,6 +164,12 @@ def test_huge_pictures_are_refused(tmp_path: Path) -> None:
         Image.new("1", (side, side)).save(path)
         with pytest.raises(PictureError, match=r"png: expected at most 50 million pixels"):
             load_picture(path)
+
+
+def test_a_device_without_an_end_is_no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pictures, "_MOST_BYTES", 1 << 20)
+    with pytest.raises(PictureError, match=r"/dev/zero: cannot be read \(File too large\)"):
+        load_picture(Path("/dev/zero"))
 
 
 def test_every_camera_has_its_own_file(tmp_path: Path) -> None:

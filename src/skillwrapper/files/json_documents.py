@@ -12,6 +12,7 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from skillwrapper.errors import FileError
+from skillwrapper.files.bounded import read_bounded
 from skillwrapper.files.mistakes import Location, first_mistake
 from skillwrapper.files.yaml_documents import YamlDocument, compose
 
@@ -27,7 +28,7 @@ def read_text(path: Path) -> str:
         FileError: if it is missing, cannot be read, or is no UTF-8.
     """
     try:
-        return path.read_text(encoding="utf-8")
+        return str(read_bounded(path), "utf-8").replace("\r\n", "\n").replace("\r", "\n")
     except OSError as error:
         raise FileError(f"{path}: cannot be read ({error.strerror})") from error
     except UnicodeDecodeError as error:
@@ -125,7 +126,7 @@ def whole_lines(path: Path) -> list[bytes]:
         FileError: if it cannot be read.
     """
     try:
-        data = path.read_bytes()
+        data = read_bounded(path)
     except FileNotFoundError:
         return []
     except OSError as error:

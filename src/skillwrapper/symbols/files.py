@@ -10,6 +10,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict
 
 from skillwrapper.errors import ConfigurationError, SymbolError, UnknownNameError, UserError
+from skillwrapper.files.bounded import read_bounded
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator, Variable
@@ -109,7 +110,7 @@ def read_model(path: Path, domain: Domain) -> AbstractModel:
         UnknownNameError: if a type, skill or predicate does not exist.
     """
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
+        data = json.loads(read_bounded(path))
         return _model(YamlDocument(path, data, None), domain)
     except (OSError, ValueError, UserError):
         # JSON is YAML too, slow to read as such, but then a mistake has its line.

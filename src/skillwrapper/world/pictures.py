@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from PIL import ExifTags, Image, ImageOps, UnidentifiedImageError
 
 from skillwrapper.errors import PictureError
+from skillwrapper.files.bounded import read_bounded
 from skillwrapper.world.observation import Observation, Picture
 
 Shown: TypeAlias = "NDArray[Any] | bytes | str | os.PathLike[str] | Image.Image | Picture"
@@ -61,6 +62,9 @@ def picture_of(shown: Shown, camera: str = MAIN_CAMERA) -> Picture:
     return Picture(encode_png(_from_array(shown, camera)), camera)
 
 
+_MOST_BYTES = 1 << 28
+
+
 def load_picture(path: Path, camera: str = MAIN_CAMERA) -> Picture:
     """Read a picture from a file; other formats than PNG are converted.
 
@@ -68,7 +72,7 @@ def load_picture(path: Path, camera: str = MAIN_CAMERA) -> Picture:
         PictureError: if the file is missing, is no picture, or too large a one.
     """
     try:
-        data = path.read_bytes()
+        data = read_bounded(path, _MOST_BYTES)
     except FileNotFoundError as error:
         raise PictureError(f"{path}: no such picture") from error
     except OSError as error:

@@ -1,0 +1,33 @@
+"""Reading a file that has an end: a device or a pipe named by mistake may have none."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+
+MOST_BYTES = 1 << 30
+"""No file that we write, and no recording that we read, comes near."""
+
+
+def read_bounded(path: Path, most: int = MOST_BYTES) -> bytes:
+    """The content of a file.
+
+    Args:
+        path: the file.
+        most: bytes that it may have.
+
+    Raises:
+        OSError: if it cannot be read, or is larger.
+    """
+    with path.open("rb") as file:
+        if os.fstat(file.fileno()).st_size > most:
+            raise _too_large(path)
+        data = file.read(most + 1)  # devices tell no size
+    if len(data) > most:
+        raise _too_large(path)
+    return data
+
+
+def _too_large(path: Path) -> OSError:
+    return OSError(errno.EFBIG, os.strerror(errno.EFBIG), str(path))
