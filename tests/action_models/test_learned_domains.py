@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from planning_domains import (
+    BELLS,
     FERRY,
     LAMPS,
     LOCKS,
@@ -47,7 +48,9 @@ def _states(domain: Strips) -> set[frozenset[str]]:
 
 
 @pytest.mark.parametrize(
-    "text", [FERRY, LAMPS, LOCKS, POST], ids=["boats", "lamps", "locks", "post"]
+    "text",
+    [FERRY, LAMPS, LOCKS, POST, BELLS],
+    ids=["boats", "lamps", "locks", "post", "bells"],
 )
 @pytest.mark.parametrize("failures", [False, True], ids=["successes", "failures"])
 def test_the_learned_domain_is_the_true_one(text: str, failures: bool, tmp_path: Path) -> None:
@@ -72,6 +75,14 @@ def test_what_was_seen_is_accounted_for(tmp_path: Path) -> None:
             found = set(learned.applicable(step.before, OBJECTS["boats"]))
             assert (step.action, step.arguments) in found
             assert learned.actions[step.action].apply(step.before, step.arguments) == step.after
+
+
+def test_what_no_condition_tells_apart_is_counted(tmp_path: Path) -> None:
+    true = strips_of(BELLS, tmp_path)
+    before, rung = STARTS["bells"], STARTS["bells"] | {"rings b"}
+    steps = [Step("pull", ("b",), True, before, after) for after in (before, rung)]
+    assert learn_action_models(true.skeleton, steps).actions["pull"].unexplained == 1
+    assert learn_action_models(true.skeleton, steps[:1]).actions["pull"].unexplained == 0
 
 
 def test_an_action_that_never_worked_is_left_out(tmp_path: Path) -> None:

@@ -98,7 +98,22 @@ POST = """
 """
 """Types of which one is enough, symmetric relations, and two conditional effects of one action."""
 
+BELLS = """
+(define (domain bells) (:requirements :typing :adl)
+(:types bell)
+(:predicates (wired ?b - bell) (powered ?b - bell) (wound ?b - bell) (rings ?b - bell))
+(:action pull :parameters (?b - bell) :precondition (not (rings ?b))
+  :effect (and (when (and (wired ?b) (powered ?b)) (rings ?b)) (when (wound ?b) (rings ?b))
+    (not (wound ?b))))
+(:action still :parameters (?b - bell) :precondition (rings ?b) :effect (not (rings ?b)))
+(:action wind :parameters (?b - bell) :precondition () :effect (wound ?b))
+(:action plug :parameters (?b - bell) :precondition (not (powered ?b)) :effect (powered ?b))
+(:action unplug :parameters (?b - bell) :precondition (powered ?b) :effect (not (powered ?b))))
+"""
+"""One effect that comes about in two ways."""
+
 OBJECTS = {
+    "bells": {"a": "bell", "b": "bell"},
     "locks": {"c": "chamber", "d": "chamber", "b": "barge"},
     "post": {"v": "van", "w": "van", "x": "bike", "o": "letter"},
     "mine": {"a": "cell", "b": "cell"},
@@ -107,6 +122,7 @@ OBJECTS = {
 }
 
 STARTS = {
+    "bells": frozenset({"wired a"}),
     "locks": frozenset({"water c low", "water d high", "waiting b low"}),
     "post": frozenset({"at x o", "free v", "free w", "paid o"}),
     "mine": frozenset({"loose a", "gold b"}),

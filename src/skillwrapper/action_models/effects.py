@@ -17,6 +17,9 @@ from skillwrapper.action_models.models import Condition, Effect
 from skillwrapper.action_models.skeleton import LiftedAtom
 from skillwrapper.action_models.views import Bits, ViewTable, some
 
+_Literal = tuple[int, bool]
+"""The number of an atom, and whether it must be true or false."""
+
 
 @dataclass(frozen=True, eq=False)
 class _Changes:
@@ -47,8 +50,26 @@ def find_effects(table: ViewTable, atoms: Sequence[LiftedAtom]) -> tuple[Effect,
     for positive, chosen in ((True, adds), (False, deletes)):
         for number in np.flatnonzero(chosen).tolist():
             change = Condition(atoms[number], positive)
-            found.append(Effect(change, _when(seen, atoms, number, positive=positive)))
+            for literals in _when(seen, number, positive=positive):
+                when = sorted(Condition(atoms[i], truth) for i, truth in literals)
+                found.append(Effect(change, tuple(when)))
     return tuple(sorted(found))
+
+
+def count_unexplained(
+    table: ViewTable, atoms: Sequence[LiftedAtom], effects: Sequence[Effect]
+) -> int:
+    """After how many different successes something else is true than effects say."""
+    done = table.success
+    before, after, same = table.before[done], table.after[done], table.same[done]
+    number_of = {atom: number for number, atom in enumerate(atoms)}
+    made = {True: np.zeros_like(before), False: np.zeros_like(before)}
+    for effect in effects:
+        when = [(number_of[condition.atom], condition.holds) for condition in effect.when]
+        rows = np.flatnonzero(_met(before, when))
+        made[effect.change.holds][rows, same[rows, number_of[effect.change.atom]]] = True
+    added, deleted = (np.take_along_axis(made[x], same, axis=1) for x in (True, False))
+    return int((((before & ~deleted) | added) != after).any(axis=1).sum())
 
 
 def _added(seen: _Changes) -> Bits:
@@ -93,26 +114,63 @@ def _explain(changed: Bits, seen: _Changes, surely: Bits, possible: Bits) -> Bit
     return chosen
 
 
-def _when(
-    seen: _Changes, atoms: Sequence[LiftedAtom], number: int, *, positive: bool
-) -> tuple[Condition, ...]:
-    """Under what condition an atom changes; nothing if it always does."""
+def _when(seen: _Changes, number: int, *, positive: bool) -> list[tuple[_Literal, ...]]:
+    """Under what conditions an atom changes, any of which is enough; one without literals: always.
+
+    If no literals over the arguments tell some changes from what did not change, the condition
+    that is found takes these in.
+    """
     ready = seen.alone[:, number] & (seen.before[:, number] != positive)
-    changed = ready & (seen.after[:, number] == positive)
-    unchanged = ready & (seen.after[:, number] != positive)
-    if not unchanged.any() or not changed.any():
-        return ()
-    held = seen.before[changed]
-    candidates = [(i, True) for i in np.flatnonzero(held.all(axis=0)).tolist()]
-    candidates += [(i, False) for i in np.flatnonzero(~held.any(axis=0)).tolist()]
-    others = seen.before[unchanged]
-    chosen: list[tuple[int, bool]] = []
-    left = np.ones(len(others), dtype=bool)
-    while left.any():
-        excluded = [int((others[left, i] != truth).sum()) for i, truth in candidates]
-        best = int(np.argmax(excluded)) if excluded else 0
-        if not excluded or excluded[best] == 0:
-            break  # no literal over the arguments tells them apart
+    changed = seen.before[ready & (seen.after[:, number] == positive)]
+    unchanged = seen.before[ready & (seen.after[:, number] != positive)]
+    if not len(unchanged) or not len(changed):
+        return [()]
+    together, left = _conjunction(changed, unchanged)
+    if not left:
+        return [together]
+    found = []
+    while len(changed):
+        condition, _ = _conjunction(changed[:1], unchanged, prefer=changed)
+        found.append(condition)
+        changed = changed[~_met(changed, condition)]
+    return found
+
+
+def _conjunction(
+    changed: Bits, unchanged: Bits, prefer: Bits | None = None
+) -> tuple[tuple[_Literal, ...], bool]:
+    """Literals that hold in all that changed and, together, in little of what did not.
+
+    Args:
+        changed: what was true before each change (views, atoms).
+        unchanged: what was true before where there was none (views, atoms).
+        prefer: changes of which as many as possible should meet the literals too.
+
+    Returns:
+        The literals, and whether something is left in which they hold and nothing changed.
+    """
+    candidates = [(i, True) for i in np.flatnonzero(changed.all(axis=0)).tolist()]
+    candidates += [(i, False) for i in np.flatnonzero(~changed.any(axis=0)).tolist()]
+    prefer = changed if prefer is None else prefer
+    chosen: list[_Literal] = []
+    while len(unchanged):
+        worth = [
+            (int((prefer[:, i] == truth).sum()) if excluded else -1, excluded)
+            for i, truth in candidates
+            for excluded in [int((unchanged[:, i] != truth).sum())]
+        ]
+        best = max(range(len(candidates)), key=worth.__getitem__, default=None)
+        if best is None or worth[best][1] == 0:
+            return tuple(chosen), True
         chosen.append(candidates[best])
-        left &= others[:, candidates[best][0]] == candidates[best][1]
-    return tuple(sorted(Condition(atoms[i], truth) for i, truth in chosen))
+        unchanged = unchanged[_met(unchanged, chosen[-1:])]
+        prefer = prefer[_met(prefer, chosen[-1:])]
+    return tuple(chosen), False
+
+
+def _met(before: Bits, condition: Sequence[_Literal]) -> NDArray[np.bool_]:
+    """In which views literals hold (views,)."""
+    held = np.ones(len(before), dtype=bool)
+    for number, truth in condition:
+        held &= before[:, number] == truth
+    return held

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from skillwrapper.action_models.background import Background, background_of
-from skillwrapper.action_models.effects import find_effects
+from skillwrapper.action_models.effects import count_unexplained, find_effects
 from skillwrapper.action_models.models import ActionModel, DomainModel
 from skillwrapper.action_models.preconditions import find_preconditions
 from skillwrapper.action_models.settings import ActionModelSettings
@@ -54,13 +54,15 @@ class ActionModelLearner:
         if not table.success.any():
             return None
         found = find_preconditions(views, table, background, self.settings)
+        effects = find_effects(table, views.atoms)
+        unexplained = count_unexplained(table, views.atoms, effects)
         return ActionModel(
             views.action,
             found.needed,
-            find_effects(table, views.atoms),
+            effects,
             found.refuted,
             views.steps,
-            views.unexplained + found.unexplained,
+            views.unexplained + found.unexplained + unexplained,
         )
 
 

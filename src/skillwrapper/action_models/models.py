@@ -48,8 +48,9 @@ class ActionModel:
         effects: what changes; sorted.
         refuted: conditions that always held, and that failures speak against (sorted).
         steps: from how many transitions it was learned.
-        unexplained: how many of these changed something that is not about the arguments, or
-            failed although everything that ever held was true.
+        unexplained: how many of these changed something that is not about the arguments; and, of
+            those that look different, failed although everything that ever held was true, or ended
+            otherwise than the effects say.
     """
 
     action: Schema
