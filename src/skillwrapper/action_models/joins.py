@@ -37,6 +37,17 @@ def ground(words: Words, binding: Binding) -> str:
     return " ".join([binding.get(word, word) for word in words])
 
 
+@dataclass
+class Effort:
+    """How much may still be searched.
+
+    Attributes:
+        left: how many more partial bindings are looked at; below 0 if more were needed.
+    """
+
+    left: int
+
+
 class Facts:
     """The atoms of a state, to be looked up by some of their terms.
 
@@ -95,6 +106,7 @@ class Join:
         literals: the conjunction; atoms of ``=`` may be among it.
         facts: the state.
         allowed: which objects may stand for every parameter.
+        effort: the search ends without an error when it is spent; by default it never is.
     """
 
     def __init__(
@@ -103,7 +115,9 @@ class Join:
         literals: Iterable[Literal],
         facts: Facts,
         allowed: Mapping[str, frozenset[str]],
+        effort: Effort | None = None,
     ) -> None:
+        self._effort = effort
         self._names = tuple([p.name for p in parameters])
         self._literals = tuple(literals)
         self._facts, self._allowed = facts, allowed
@@ -127,6 +141,10 @@ class Join:
                 yield tuple([binding[name] for name in self._names])
             return
         for words in self._choices(stage, binding):
+            if self._effort is not None:
+                self._effort.left -= 1
+                if self._effort.left < 0:
+                    return
             more = self._bind(stage, words, binding)
             if more is not None and self._passes(stage, more):
                 yield from self._extend(more, number + 1)

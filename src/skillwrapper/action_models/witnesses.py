@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from skillwrapper.action_models.joins import Facts, Join, Literal
+from skillwrapper.action_models.joins import Effort, Facts, Join, Literal
 from skillwrapper.action_models.models import Condition
 from skillwrapper.action_models.skeleton import DomainSkeleton, Schema, TypedName
 from skillwrapper.action_models.steps import State, Step
@@ -20,6 +20,9 @@ from skillwrapper.action_models.steps import State, Step
 _ENOUGH_STATES = 10
 """In so many states the other conditions must hold before anything is said to follow from them."""
 
+
+_EFFORT = 100_000
+"""So many partial bindings are looked at to answer one question."""
 
 _Filled = set[tuple[str, TypedName]]
 """Objects, and parameters in whose place they stood."""
@@ -136,10 +139,10 @@ class Witness:
     facts: Facts
     allowed: Mapping[str, frozenset[str]]
 
-    def satisfies(self, action: Schema, literals: Sequence[Literal]) -> bool:
+    def satisfies(self, action: Schema, literals: Sequence[Literal], effort: Effort) -> bool:
         """Whether literals hold for some objects in the place of an action's parameters."""
-        found = Join(action.parameters, literals, self.facts, self.allowed).bindings()
-        return next(iter(found), None) is not None
+        join = Join(action.parameters, literals, self.facts, self.allowed, effort)
+        return next(join.bindings(), None) is not None
 
 
 def makes_no_difference(
@@ -147,22 +150,28 @@ def makes_no_difference(
 ) -> bool:
     """Whether a condition held in every state, with all objects for which others did.
 
-    Where the others hold in too few states this is no more than chance, and the answer is no.
+    Where the others hold in too few states this is no more than chance, and the answer is no; so
+    it is if the search takes too long.
     """
     others = list(others)
     if not never_came_about(condition, others, action, seen):
         return False
-    asked = [_literal(c) for c in others]
-    held = (w for w in seen if w.satisfies(action, asked))
+    asked, effort = [_literal(c) for c in others], Effort(_EFFORT)
+    held = (w for w in seen if w.satisfies(action, asked, effort))
     return sum(1 for _ in itertools.islice(held, _ENOUGH_STATES)) == _ENOUGH_STATES
 
 
 def never_came_about(
     condition: Condition, others: Iterable[Condition], action: Schema, seen: Sequence[Witness]
 ) -> bool:
-    """Whether in no state, with no objects, a condition was violated while others held."""
+    """Whether in no state, with no objects, a condition was violated while others held.
+
+    No, if the search takes too long.
+    """
     against = [_literal(c) for c in (*others, Condition(condition.atom, not condition.holds))]
-    return not any(w.satisfies(action, against) for w in seen)
+    effort = Effort(_EFFORT)
+    came_about = any(w.satisfies(action, against, effort) for w in seen)
+    return not came_about and effort.left >= 0
 
 
 def _literal(condition: Condition) -> Literal:
