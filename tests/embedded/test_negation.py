@@ -19,6 +19,18 @@ from skillwrapper.embedded.sight import Sight
 # name of the predicate | kinds of its parameters | sentence | what it means
 CORPUS = """
 off_board | item | The item is not on the board. | !on board
+far_from_done | item | The item is far from cooked. |
+half_done | item | The item is only half cooked. |
+hardly_done | item | The item is hardly cooked. |
+barely_cut | item | The item is barely cut. |
+kept_off | item | The item avoids the stove. |
+kept_from | item | Something prevents the item from being held. |
+refused | robot item | The robot refuses to hold the item. |
+tried | robot item | The robot tries to hold the item. |
+failed | robot item | The robot failed to hold the item. |
+let_go_of | item | The item is free of the robot's grasp. |
+out_of_reach | item | It is impossible that the item is held. |
+wanted | robot item | The robot wants to hold the item. |
 not_on_board | item | | !on board
 on_board | item | The item is not on the cutting board. | !on board
 away_from_stove | item | The item is no longer on the stove. | !on stove

@@ -20,12 +20,16 @@ _NOT = (
 )
 _OTHERWISE = (
     r"never|cannot|nothing|none|nobody|no ?one|nowhere|neither|nor|except|but|unless|lacks?|lacking"
-    r"|absent|absence|fails? to|off|away|left (?:its|the|his)|removed|taken out|out of"
+    r"|absent|absence|fail(?:s|ed)? to|off|away|left (?:its|the|his)|removed|taken out|out of"
+    r"|far from|hardly|barely|scarcely|rarely|seldom|refus(?:es?|ed|ing)|avoid(?:s|ed|ing)?"
+    r"|prevent(?:s|ed|ing)?|reject(?:s|ed)?|den(?:y|ies|ied)|declin(?:es?|ed)|impossible|unable"
+    r"|(?<=free of )(?:the )?(?:robot|hand|gripper|arm)|(?<=free from )(?:the )?(?:robot|hand)"
 )
 _NOT_SO_NOW = (
     r"can(?! (?:clearly )?(?:be )?seen)|could|may|might|must|should|shall|will|would|about to"
     r"|ready (?:to|for)|able to|going to|needs? to|supposed to|meant to|to be|used to|formerly"
-    r"|previously|almost|nearly|(?:was|were|had been) (?=on|in|at|under|near|held|placed)"
+    r"|previously|almost|nearly|half|halfway|partly|partially|sometimes|tr(?:ies|ying) to"
+    r"|attempt(?:s|ing)? to|wants? to|(?:was|were|had been) (?=on|in|at|under|near|held|placed)"
 )
 _NOT_PATTERN = re.compile(rf"\b(?:{_NOT})\b", re.IGNORECASE)
 _DENIAL = re.compile(rf"\b(?:{_NOT}|{_OTHERWISE}|{_NOT_SO_NOW})\b", re.IGNORECASE)
