@@ -195,6 +195,15 @@ def test_a_plain_string_where_no_picture_goes_along() -> None:
 
 # Each in the words of another server; (status, words, name of the row).
 IN_OTHER_WORDS = [
+    (403, "This would exceed your account's rate limit. Try again later.", "busy, by the words"),
+    (499, "client closed request", "busy, by the words"),
+    (403, "error code: 1010", "kept out by a firewall"),
+    (403, "Access denied by the firewall", "kept out by a firewall"),
+    (400, "The api_key client option must be set", "wrong key, in words"),
+    (429, "Usage limits are reached. You will regain access on 2031-02-01", "daily limit"),
+    (400, "No models loaded. Please load a model in the developer page", "unknown model"),
+    (400, "Your credit balance is too low to access the API", "no credit"),
+    (413, "Request too large on tokens per minute (TPM): Limit 6000", "context too short"),
     (500, "image input is not supported - hint: provide the mmproj", "no pictures"),
     (400, "Invalid content type. image_url is only supported by certain models.", "no pictures"),
     (404, "No endpoints found that support image input", "no pictures"),
