@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from skillwrapper.errors import ConfigurationError, FileError
 from skillwrapper.files import json_documents
-from skillwrapper.files.bounded import read_bounded
+from skillwrapper.files.bounded import bounded_lines, read_bounded
 from skillwrapper.files.json_documents import (
     read_json,
     read_lines,
@@ -151,3 +151,13 @@ def test_a_part_knows_its_lines(tmp_path: Path) -> None:
     path.write_text("other: 1\npart:\n  name: a\n  count: none\n")
     with pytest.raises(ConfigurationError, match=r"file\.yaml:4: 'count': expected a whole number"):
         YamlDocument.read(path).part("part").validate(Part)
+
+
+def test_lines_come_one_by_one_and_are_bounded(tmp_path: Path) -> None:
+    path = tmp_path / "lines"
+    path.write_bytes(b"one\r\n\ntwo\nend")
+    assert list(bounded_lines(path)) == [b"one\r\n", b"\n", b"two\n", b"end"]
+    with pytest.raises(OSError, match="too large"):
+        list(bounded_lines(path, 5))
+    with pytest.raises(OSError, match="too large"):
+        list(bounded_lines(Path("/dev/zero"), 1 << 20))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 MOST_BYTES = 1 << 30
@@ -27,6 +28,26 @@ def read_bounded(path: Path, most: int = MOST_BYTES) -> bytes:
     if len(data) > most:
         raise _too_large(path)
     return data
+
+
+def bounded_lines(path: Path, most: int = MOST_BYTES) -> Iterator[bytes]:
+    """The lines of a file, one after the other in memory, with what ends them.
+
+    Args:
+        path: the file.
+        most: bytes that it may have.
+
+    Raises:
+        OSError: if it cannot be read, or is larger.
+    """
+    with path.open("rb") as file:
+        if os.fstat(file.fileno()).st_size > most:
+            raise _too_large(path)
+        while line := file.readline(most + 1):
+            most -= len(line)
+            if most < 0:
+                raise _too_large(path)
+            yield line
 
 
 def _too_large(path: Path) -> OSError:

@@ -12,7 +12,7 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from skillwrapper.errors import FileError
-from skillwrapper.files.bounded import read_bounded
+from skillwrapper.files.bounded import bounded_lines, read_bounded
 from skillwrapper.files.mistakes import Location, first_mistake
 from skillwrapper.files.yaml_documents import YamlDocument, compose
 
@@ -81,10 +81,22 @@ def read_entries(path: Path, model: type[Model]) -> Iterator[tuple[str, Model]]:
     Raises:
         FileError: if it cannot be read, or a line is something else; names the file and the line.
     """
-    for number, line in enumerate(read_text(path).split("\n"), start=1):
+    for number, line in enumerate(_lines(path), start=1):
         if line.strip():
             where = f"{path}:{number}"
             yield where, parse_record(line, model, where)
+
+
+def _lines(path: Path) -> Iterator[str]:
+    """The lines of a text file without what ends them, never all at once in memory."""
+    try:
+        for line in bounded_lines(path):
+            text = str(line, "utf-8").replace("\r\n", "\n").removesuffix("\n").removesuffix("\r")
+            yield from text.replace("\r", "\n").split("\n")
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read ({error.strerror})") from error
+    except UnicodeDecodeError as error:
+        raise FileError(f"{path}: expected UTF-8 text") from error
 
 
 def parse_record(line: str | bytes, model: type[Model], where: str) -> Model:
