@@ -27,8 +27,8 @@ _ATOMS = re.compile(r"(?:\s*\([^()]*\))*\s*")
 _AND = re.compile(r"\s*\(\s*and((?:\s*\([^()]*\))*)\s*\)\s*")
 
 
-def read_trace(path: Path, skeleton: DomainSkeleton, *, failures: bool = False) -> list[Step]:
-    """The steps of a trace.
+def read_trace(path: Path, skeleton: DomainSkeleton, *, failures: bool = False) -> Iterator[Step]:
+    """The steps of a trace, one after the other.
 
     Args:
         path: the file.
@@ -38,7 +38,7 @@ def read_trace(path: Path, skeleton: DomainSkeleton, *, failures: bool = False) 
     Raises:
         UserError: if the file cannot be read or does not fit the domain; names file and line.
     """
-    return list(parse_trace(read_text(path), str(path), skeleton, failures=failures))
+    return parse_trace(read_text(path), str(path), skeleton, failures=failures)
 
 
 def parse_trace(
@@ -92,24 +92,25 @@ def _sections(text: str, name: str) -> Iterator[tuple[str, str, str]]:
             f"{name}:1: expected a trace '(:trajectory (:state ...) (:action ...) (:state ...))'; "
             "of a plan without states nothing can be learned"
         )
-    heads = list(_SECTION.finditer(text, start.end()))
+    head = _SECTION.search(text, start.end())
+    if head is None:
+        raise FileError(f"{name}:1: expected states '(:state ...)', got none")
+    if text[start.end() : head.start()].strip():
+        raise FileError(f"{name}:1: expected '(:state' or '(:init' first")
     line, counted = 1, 0
-    for number, head in enumerate(heads):
-        last = number + 1 == len(heads)
-        end = len(text) if last else heads[number + 1].start()
+    while head is not None:
+        following = _SECTION.search(text, head.end())
+        end = len(text) if following is None else following.start()
         line, counted = line + text.count("\n", counted, head.start()), head.start()
         where = f"{name}:{line}"
         content = text[head.end() : end].rstrip()
-        closing = 2 if last else 1
+        closing = 2 if following is None else 1
         for _ in range(closing):
             if not content.endswith(")"):
                 raise FileError(f"{where}: expected {closing} ')' at the end of '{head[1]}'")
             content = content[:-1].rstrip()
         yield head[1], content, where
-    if not heads:
-        raise FileError(f"{name}:1: expected states '(:state ...)', got none")
-    if heads and text[start.end() : heads[0].start()].strip():
-        raise FileError(f"{name}:1: expected '(:state' or '(:init' first")
+        head = following
 
 
 def _state(content: str, where: str) -> State:
