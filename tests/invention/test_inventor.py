@@ -453,17 +453,38 @@ def test_after_nothing_other_objects_are_looked_at_too_once_half_as_much_again_w
         notebook.success(f"round(b) #{number}", "Wave(r)", f"round(b) empty(r) #{number}")
     study.inventor.invent()
     asked = [(question[0].first, question[0].wide) for question in study.proposer.asked]
-    assert asked == [(1, False), (2, True), (1, True)]
+    assert asked == [(1, False), (1, True), (2, True)]
 
 
-def test_questions_about_unnoticed_changes_are_bounded_for_each_skill() -> None:
+def test_questions_in_a_row_about_unnoticed_changes_are_bounded() -> None:
+    """And it is asked again only when half as much again was executed."""
     notebook = silent_wave()
     study = Study(notebook, *([SHINY] for _ in range(9)), active=[ROUND], attempts=2)
     for number in range(3):
         study.inventor.invent()
         notebook.success(f"round(a) #{number}", "Wave(r)", f"round(a) empty(r) #{number}")
-    assert study.proposer.kinds == ["unnoticed"] * 2
-    assert {q[0].first for q in study.proposer.asked} == {0, 1}
+    assert study.proposer.kinds == ["unnoticed"] * 4
+    assert [q[0].wide for q in study.proposer.asked] == [False, True, True, True]
+
+
+def test_all_that_has_changed_gets_a_name() -> None:
+    notebook = Notebook(KITCHEN)
+    for number in range(2):
+        notebook.success(f"round(a) #{number}", "Wave(r)", f"round(a) empty(r) held(a) #{number}")
+        notebook.success(f"held(a) #{number}", "Wave(r)", f"held(a) empty(r) #{number}")
+    study = Study(notebook, [EMPTY, Predicate("high", ("robot",))], active=[ROUND])
+    study.inventor.invent()
+    assert study.active == ["round", "empty"]  # nothing is high
+
+
+def test_a_dormant_name_of_a_change_is_taken_up_when_it_tells_something_apart() -> None:
+    notebook = silent_wave()
+    study = Study(notebook, [EMPTY], active=[ROUND])
+    study.inventor.invent()
+    study.words.set_dormant(EMPTY)
+    study.inventor.invent()
+    assert study.active == ["round", "empty"]
+    assert study.verdicts(Verdict.REVIVED) == ["empty"]
 
 
 def test_unnoticed_changes_are_not_asked_for_if_so_set() -> None:

@@ -35,7 +35,7 @@ class Expectations:
         untried: whether this very instance was never tried where the same was seen, 0 or 1; what
             tells its objects from others may have no name yet.
         unlike: how new the whole state is beside those in which the instance succeeded, by pairs of
-            what holds in it, if no success of its skill seems to change anything; else 0.
+            what holds in it.
     """
 
     success: NDArray[np.float64]
@@ -128,9 +128,9 @@ class SkillBeliefs:
     def _unlike(
         self, space: AtomSpace, states: Labels, attempts: Attempts, instances: list[SkillInstance]
     ) -> NDArray[np.float64]:
-        """Of a skill that never seemed to change anything: it may have had nothing to act on."""
-        found = np.zeros((len(states), len(instances)))
-        if self.of_skill.unnoticed is not None:
+        """Beside all that held where the instance succeeded (attempts,)."""
+        found = np.ones((len(states), len(instances)))
+        if self.of_skill.predictions:
             useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
             tables = [p.table for p in self.of_skill.predictions if p.table.space == useful]
             seen = _values(states[:, [space.column[atom] for atom in useful.atoms]])

@@ -240,12 +240,14 @@ class PlannedExplorer:
             fit, situation.space, lookahead.states, scene.instances, doubt
         )
         unproven = frozenset(s for s, of_skill in fit.skills.items() if not of_skill.operators)
+        silent = frozenset(s for s, of in fit.skills.items() if of.unnoticed is not None)
         return weigh(
             lookahead,
             expected,
             scene,
             self._memory,
             unproven=unproven,
+            silent=silent,
             causes=causes,
             weights=self._weights,
         )

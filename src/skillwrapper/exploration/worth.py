@@ -31,6 +31,7 @@ class Weights:
         untried: an instance that was never tried where it sees what others saw, as a share of the
             hope for its skill.
         silent: a skill that never seemed to change anything, in a state that is as new as can be.
+        elsewhere: any other skill in such a state: what it changes may hang on things far away.
         failing: newness where the model predicts a failure, times the entropy of how often that
             was wrong of late.
         least_failing: the least of that product.
@@ -48,6 +49,7 @@ class Weights:
     unmatched: float = 0.2
     untried: float = 0.05
     silent: float = 0.5
+    elsewhere: float = 0.1
     failing: float = 0.4
     least_failing: float = 0.05
     working: float = 0.5
@@ -101,6 +103,7 @@ def weigh(
     memory: Memory,
     *,
     unproven: frozenset[str],
+    silent: frozenset[str],
     causes: Sequence[Inconsistency],
     weights: Weights,
 ) -> Worth:
@@ -112,6 +115,7 @@ def weigh(
         scene: the instances.
         memory: earlier attempts.
         unproven: skills that never succeeded.
+        silent: skills of which no success seems to change anything.
         causes: what the model cannot explain, one inconsistency for each cause.
         weights: what counts how much.
     """
@@ -143,8 +147,9 @@ def weigh(
         untried = np.maximum(expected.untried[of_node, number], _PLAYED * played)
         untried *= weights.untried * memory.hope(instance.skill)
         new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], untried))
+        other = weights.silent if instance.skill in silent else weights.elsewhere
         unlike = memory.patience(instance.skill) * np.sqrt(expected.unlike[of_node, number])
-        new[:, number] = np.where(sure[:, number], weights.silent * unlike, new[:, number])
+        new[:, number] = np.where(sure[:, number], other * unlike, new[:, number])
         unseen = memory.new_signatures(memory.seen[instance.skill], lookahead.roles, places)
         each = np.where(sure[:, number], weights.covered, weights.covered_failing)
         cover[:, number] = each * unseen

@@ -11,7 +11,7 @@ from typing import Protocol
 from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.exchanges import find_exchange
 from skillwrapper.invention.fitter import Fitter
-from skillwrapper.invention.pruning import find_burdens
+from skillwrapper.invention.pruning import find_burdens, follows
 from skillwrapper.invention.rejections import Rejections
 from skillwrapper.invention.ripeness import Ripeness
 from skillwrapper.invention.screening import NOTHING_NEW, UNSTEADY, Screen
@@ -28,6 +28,7 @@ from skillwrapper.world.observation import Observation
 from skillwrapper.world.scenes import Scene
 
 _ORDER = list(InconsistencyKind)
+_TELLING = "it tells apart what nothing else does"
 _BURDEN = "it takes more operators than it explains transitions"
 
 
@@ -120,6 +121,7 @@ class Inventor:
         self._admit_new_data()
         if self._settings.unnoticed:
             self._look_through_shelf()
+            self._take_up_changes()
         fit = self._mend(ends=self._settings.unnoticed)
         if self._settings.keep_best:
             fit = self._keep_best(fit)
@@ -134,6 +136,14 @@ class Inventor:
             if predicate.name not in {p.name for p in self._vocabulary.active}:
                 fit = self._fitter.fit(self._vocabulary.active)
                 self._try(asked, fit, [predicate], dormant=False)
+
+    def _take_up_changes(self) -> None:
+        """Take dormant names of changes into use that tell apart what nothing else does (D26)."""
+        for predicate in self._vocabulary.dormant_changes:
+            self._fitter.labeller.label([predicate])
+            if not follows(self._fitter, self._vocabulary.active, predicate):
+                self._vocabulary.accept(predicate, for_change=True)
+                self._listener(CandidateDecision(Verdict.REVIVED, predicate, _TELLING))
 
     def _mend(self, *, ends: bool = False) -> Fit:
         """Resolve one inconsistency after the other; where an episode ends, unnoticed changes too.
@@ -249,12 +259,21 @@ class Inventor:
         rejected = self._rejections.of(inconsistency.identity)
         shown = pairs[number % len(pairs)]
         proposed = self._proposer.propose(shown, fit.predicates, rejected, number)
-        if inconsistency.kind is InconsistencyKind.UNNOTICED:
-            executions, name = len(self._fitter.recorded), inconsistency.skill
-            silent = fit.skill(name).unnoticed is not None
-            self._unnoticed.note(inconsistency, executions, nothing=not proposed, silent=silent)
         fresh = self._vocabulary.fresh(proposed, rejected)
-        if self._try(inconsistency, fit, fresh, dormant=False):
+        is_named = self._try(inconsistency, fit, fresh, dormant=False)
+        if _is_of_a_change(inconsistency):
+            executions, silent = (
+                len(self._fitter.recorded),
+                fit.skill(inconsistency.skill).unnoticed,
+            )
+            self._unnoticed.note(
+                inconsistency,
+                executions,
+                nothing=not proposed,
+                in_vain=not is_named,
+                silent=silent is not None,
+            )
+        if is_named:
             return
         postponed = self._postponed.get(inconsistency.identity, ())
         if attempt + 1 >= self._settings.attempts and postponed:
@@ -270,7 +289,7 @@ class Inventor:
 
     def _try_exchange(self, inconsistency: Inconsistency) -> bool:
         """Whether it helps to take a dormant predicate in place of an active one."""
-        if inconsistency.kind is InconsistencyKind.UNNOTICED:
+        if _is_of_a_change(inconsistency):
             return False
         exchange = find_exchange(self._fitter, self._vocabulary, inconsistency)
         if exchange is None:
@@ -301,10 +320,15 @@ class Inventor:
         good = [t for t in trials if not t.shortcoming(self._settings.threshold)]
         worth = [t for t in good if t.is_worth_it(fit, inconsistency.kind)]
         best = min(worth, key=Trial.rank, default=None)
+        others = [t for t in worth if t is not best and _is_of_a_change(inconsistency)]
         for trial in trials:
-            self._record(inconsistency, trial, best, worth)
+            if trial not in others:
+                self._record(inconsistency, trial, best, worth)
         if best is not None:
             self._accept(best, inconsistency)
+            if others:  # more than one thing may have changed
+                fit = self._fitter.fit(self._vocabulary.active)
+                self._try(inconsistency, fit, [t.predicate for t in others], dormant=dormant)
         else:
             known = self._postponed.get(inconsistency.identity, ())
             self._postponed[inconsistency.identity] = (*known, *(t.predicate for t in good))
@@ -324,7 +348,7 @@ class Inventor:
             self._accept(best, inconsistency)
 
     def _accept(self, trial: Trial, inconsistency: Inconsistency) -> None:
-        for_change = inconsistency.kind is InconsistencyKind.UNNOTICED
+        for_change = _is_of_a_change(inconsistency)
         self._vocabulary.accept(trial.predicate, for_change=for_change)
         self._postponed.clear()
 
@@ -379,6 +403,11 @@ class Inventor:
         self._listener(
             CandidateDecision(verdict, trial.predicate, reason, inconsistency, trial.score)
         )
+
+
+def _is_of_a_change(inconsistency: Inconsistency) -> bool:
+    """Whether it was asked what has changed, perhaps without being noticed (D26)."""
+    return inconsistency.kind is InconsistencyKind.UNNOTICED
 
 
 def _acceptance(trial: Trial) -> Verdict:

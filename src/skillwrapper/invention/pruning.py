@@ -142,16 +142,16 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
         predicate = min(left, key=lambda p: (use[p.name], -vocabulary.active.index(p)))
         tried.add(predicate)
         without = fitter.fit([p for p in vocabulary.active if p != predicate])
-        if predicate.name in vocabulary.changes and not _follows(fitter, vocabulary, predicate):
+        others = [p for p in vocabulary.active if p != predicate]
+        if predicate.name in vocabulary.changes and not follows(fitter, others, predicate):
             continue
         if all(_is_as_good(one, fit.skill(one.skill)) for one in without.each()):
             vocabulary.set_dormant(predicate)
             pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
 
 
-def _follows(fitter: Fitter, vocabulary: Vocabulary, predicate: Predicate) -> bool:
-    """Whether the others tell apart all pictures that a predicate tells apart."""
-    others = [p for p in vocabulary.active if p != predicate]
+def follows(fitter: Fitter, others: Sequence[Predicate], predicate: Predicate) -> bool:
+    """Whether other predicates tell apart all pictures that a predicate tells apart."""
     for scene in fitter.recorded.scenes:
         own, rest = (fitter.labeller.values(scene, ps) for ps in ([predicate], others))
         if len(different_rows(np.hstack([rest, own]))[0]) > len(different_rows(rest)[0]):

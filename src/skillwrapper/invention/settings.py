@@ -85,7 +85,7 @@ class LearningSettings(LearnerSettings):
         "change nothing in the vocabulary (D26)",
     )
     unnoticed_everywhere: bool = Field(
-        default=False,
+        default=True,
         description="whether that is asked of every change too: what else has changed (D26)",
     )
     new_causes: bool = Field(

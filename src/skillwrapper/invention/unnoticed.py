@@ -6,7 +6,7 @@ First come skills of which all successes seem to change nothing, then what else 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -18,35 +18,51 @@ from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.recorded import RecordedTransitions
+from skillwrapper.transitions.tables import SkillTable
 from skillwrapper.world.skills import SkillInstance
 
-_GROWTH, _LATER = 1.5, 3.0
+_GROWTH, _LATER, _AGAIN = 1.5, 2.0, 4.0
 _ALIKE = 4
 """So many pictures that look alike to the vocabulary are compared with one another."""
 
 _Key = tuple[bytes, LiftedChange]
+_Context = tuple[str, LiftedChange, SkillInstance, bytes]
+"""A success by its skill, its change, and what held of its arguments before."""
+
+
+_Success = tuple[bool, bool, int, int, int, _Key]
+"""Whether other things held around it than around those that were asked about; whether it is the
+first of its episode, if that counts; how seldom it was shown; how much was done since the same was
+last done; its number; what it exemplifies: the state if nothing seems to change, else the change.
+"""
 
 
 class UnnoticedChanges:
     """Chooses successes to ask about, more rarely the more was executed.
 
-    After "nothing", a skill of which all successes seem to change nothing is asked about again, in
-    another state and with other objects in view, which may be in its arguments or on them, as soon
-    as half as much again was executed. Of other skills, it is asked what else has changed, of any
-    object, for every change that they are known to make, and again when three times as much was
-    executed: a machine that comes to a halt may have been empty.
+    A skill of which all successes seem to change nothing is asked about again after "nothing", or
+    what is of no use, some times in a row, and then as soon as half as much again was executed: in
+    another state and with other objects in view, which may be in its arguments or on them. Of other
+    skills, it is asked what else has changed, of any object, for every change that they are known
+    to make, until candidates were of no use some times: a machine that comes to a halt may have
+    been empty. When twice as much was executed, it is asked again of a success around which other
+    things held; of one like those that were asked about, when four times as much was.
 
     Args:
-        most: questions for each skill, those apart that were answered with nothing.
+        most: questions in a row about a skill that seems to change nothing; questions in vain about
+            another one.
         everywhere: whether to ask also of skills that are known to change something.
     """
 
     def __init__(self, most: int, *, everywhere: bool) -> None:
         self._most, self._everywhere = most, everywhere
-        self._asked: Counter[str] = Counter()
+        self._in_vain: Counter[tuple[str, bool]] = Counter()
         self._next: dict[str, float] = {}
         self._shown: Counter[tuple[int, bool]] = Counter()
-        self._again: dict[tuple[str, LiftedChange], float] = {}
+        self._last: dict[tuple[str, LiftedChange], int] = {}
+        self._times: Counter[tuple[str, LiftedChange]] = Counter()
+        self._contexts: set[_Context] = set()
+        self._context_of: dict[int, _Context] = {}
         self._settled: set[tuple[str, object, bool]] = set()
 
     def next(self, fit: Fit, recorded: RecordedTransitions) -> Inconsistency | None:
@@ -56,42 +72,60 @@ class UnnoticedChanges:
             fit: what is learned.
             recorded: all transitions so far.
         """
-        executions, news = len(recorded), _news(recorded)
+        executions, news, first = len(recorded), _news(recorded), _first(recorded)
         silent = [of_skill for of_skill in fit.each() if of_skill.unnoticed is not None]
         others = [s for s in fit.each() if s not in silent] if self._everywhere else []
         for of_skill in (*silent, *others):
             name = of_skill.skill
-            if self._asked[name] < self._most and executions >= self._next.get(name, 0):
-                is_wide = of_skill in silent and name in self._next
-                left = self._open(of_skill, news, is_wide)
+            if executions >= self._next.get(name, 0):
+                is_wide = of_skill in silent and self._in_vain[name, True] > 0
+                left = self._open(of_skill, news, first, is_wide)
                 if of_skill not in silent:
-                    left = (x for x in left if executions >= self._again.get((name, x[3][1]), 0))
+                    if self._in_vain[name, False] >= self._most:
+                        continue
+                    left = (one for one in left if executions >= self._due(name, one))
                 found = max(left, default=None)
                 if found is not None:
                     is_wide = is_wide or of_skill not in silent
-                    return _question(name, found[2], found[3], wide=is_wide)
+                    return _question(name, found[4], found[5], wide=is_wide)
         return None
 
-    def note(self, asked: Inconsistency, executions: int, *, nothing: bool, silent: bool) -> None:
-        """Take note of a question, and of whether it was answered with nothing."""
+    def _due(self, skill: str, success: _Success) -> float:
+        """After how many executions it is time to ask about a success of a telling skill."""
+        is_new, change = success[0], success[5][1]
+        return (_LATER if is_new else _AGAIN) * self._last.get((skill, change), 0)
+
+    def note(
+        self, asked: Inconsistency, executions: int, *, nothing: bool, in_vain: bool, silent: bool
+    ) -> None:
+        """Take note of a question.
+
+        Args:
+            asked: what was asked.
+            executions: how many there are so far.
+            nothing: whether the answer was that nothing has changed.
+            in_vain: whether no candidate was of use.
+            silent: whether all successes of the skill seemed to change nothing.
+        """
         self._shown[asked.culprit, asked.wide] += 1
-        if not nothing:
-            self._asked[asked.skill] += 1
-        elif silent:
+        self._in_vain[asked.skill, silent] += in_vain and (silent or not nothing)
+        if silent and in_vain and self._in_vain[asked.skill, silent] % self._most == 0:
             self._next[asked.skill] = _GROWTH * executions
         (state,), change = asked.identity[2:]
         if not silent:
-            self._again[asked.skill, change] = _LATER * executions
+            self._last[asked.skill, change] = executions
+            self._times[asked.skill, change] += 1
+            self._contexts.add(self._context_of[asked.culprit])
         elif nothing:
             self._settled.add((asked.skill, state, asked.wide))
 
     def _open(
-        self, of_skill: SkillFit, news: Mapping[int, int], wide: bool
-    ) -> Iterator[tuple[int, int, int, _Key]]:
+        self, of_skill: SkillFit, news: Mapping[int, int], first: Collection[int], wide: bool
+    ) -> Iterator[_Success]:
         """Successes that may be asked about, the best the largest.
 
-        How seldom one was shown, how much was done since the same was last done, its number, and
-        what it exemplifies: the state if nothing seems to change, else the change.
+        Some things change only the first time, others only later: so every other question is
+        rather about the first time in an episode.
         """
         silent = of_skill.unnoticed is not None
         for prediction in of_skill.predictions:
@@ -103,7 +137,11 @@ class UnnoticedChanges:
                     example = (state, change) if silent else (b"", change)
                     changes = silent or table.change[row].any()
                     if changes and (of_skill.skill, example[0], wide) not in self._settled:
+                        context = _context(table, int(row), change)
+                        self._context_of[number] = context
                         yield (
+                            context not in self._contexts,
+                            number in first and self._times[of_skill.skill, change] % 2 == 0,
                             -self._shown[number, wide],
                             news[number],
                             number,
@@ -129,6 +167,28 @@ def _news(recorded: RecordedTransitions) -> dict[int, int]:
             news[number] = successes - last.get(transition.instance, 0)
             last[transition.instance] = successes
     return news
+
+
+def _first(recorded: RecordedTransitions) -> frozenset[int]:
+    """The successes that were the first of their instance in an episode."""
+    found: set[int] = set()
+    done: set[SkillInstance] = set()
+    seen = ""
+    for number, record in enumerate(recorded.records):
+        transition = record.transition
+        if transition.before.key != seen:
+            done.clear()
+        seen = transition.after.key
+        if transition.success and transition.instance not in done:
+            done.add(transition.instance)
+            found.add(number)
+    return frozenset(found)
+
+
+def _context(table: SkillTable, row: int, change: LiftedChange) -> _Context:
+    instance = table.instances[table.which[row]]
+    own = [not {*instance.arguments}.isdisjoint(atom.terms) for atom in table.space.atoms]
+    return instance.skill, change, instance, table.before[row][np.array(own, dtype=bool)].tobytes()
 
 
 def _question(skill: str, number: int, example: _Key, *, wide: bool) -> Inconsistency:

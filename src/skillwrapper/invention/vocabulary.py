@@ -34,6 +34,11 @@ class Vocabulary:
         self.dormant: tuple[Predicate, ...] = tuple(dormant)
         self.changes: frozenset[str] = frozenset()
 
+    @property
+    def dormant_changes(self) -> tuple[Predicate, ...]:
+        """Dormant predicates that were taken for a change alone."""
+        return tuple(p for p in self.dormant if p.name in self.changes)
+
     def fresh(
         self, proposed: Iterable[Predicate], rejected: Iterable[Predicate] = ()
     ) -> tuple[Predicate, ...]:
