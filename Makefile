@@ -9,6 +9,7 @@ BIN := .venv/bin
 DEMO_DIR ?= runs/demo
 DEMO_SEED ?= 0
 ROBOTS_DIR ?= runs/robots
+ROBOTS_SEED ?= 1
 
 .PHONY: setup setup-sim demo demo-robots docs test lint types tests benchmark clean
 
@@ -38,7 +39,7 @@ demo: setup
 	@echo "report:            $(DEMO_DIR)/report.html"
 
 demo-robots: setup setup-sim
-	$(BIN)/skillwrapper learn panda --out $(ROBOTS_DIR)/panda --seed $(DEMO_SEED) --iterations 9 --budget 15 --threshold 0.5 --set 'scenes=[pouring,wiping,stacking]'
+	$(BIN)/skillwrapper learn panda --out $(ROBOTS_DIR)/panda --seed $(ROBOTS_SEED) --iterations 9 --budget 15 --threshold 0.5 --set 'scenes=[pouring,wiping,stacking]'
 	$(BIN)/skillwrapper verify $(ROBOTS_DIR)/panda
 	$(BIN)/skillwrapper render panda --state examples/panda/finished.yaml --seed 7 --out $(ROBOTS_DIR)/panda/goal.png
 	$(BIN)/skillwrapper solve $(ROBOTS_DIR)/panda --init-seed 77 --goal $(ROBOTS_DIR)/panda/goal.png --video $(ROBOTS_DIR)/panda/solve.webp
