@@ -300,10 +300,10 @@ def test_a_dry_run_asks_and_writes_nothing(
 
 
 def test_a_run_stops_when_it_learns_nothing_new(tmp_path: Path) -> None:
-    patient = config(ModelSettings()).model_copy(update={"iterations": 8, "until_converged": True})
+    patient = config(ModelSettings()).model_copy(update={"iterations": 16, "until_converged": True})
     result = learn(patient, tmp_path / "run")
     assert result.converged
-    assert 1 < result.iterations < 8
+    assert 1 < result.iterations < 16
     assert not result.fit.inconsistencies
     again = learn(patient, tmp_path / "run")
     assert again.iterations == result.iterations

@@ -21,7 +21,7 @@ from skillwrapper.domains.burger.system_predicates import ROBOT
 from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.symbols import AbstractModel, Predicate
+from skillwrapper.symbols import AbstractModel, Atom, Predicate
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.world import (
     Domain,
@@ -151,8 +151,15 @@ def label_states(space: AtomSpace, states: Sequence[BurgerState]) -> Labels:
 
 @cache
 def _read(predicate: Predicate, objects: tuple[object, ...], state: BurgerState) -> list[int]:
-    holds = CONCEPTS[predicate].holds
-    return [int(holds(state, *a.terms)) for a in predicate.groundings(objects)]  # type: ignore[arg-type]
+    """A concept said of wider types holds of nothing else."""
+    concept = CONCEPTS.get(predicate) or next(
+        c for p, c in CONCEPTS.items() if p.name == predicate.name
+    )
+    known = set(concept.predicate.groundings(objects))  # type: ignore[arg-type]
+    return [
+        int(Atom(concept.predicate.name, a.terms) in known and concept.holds(state, *a.terms))
+        for a in predicate.groundings(objects)  # type: ignore[arg-type]
+    ]
 
 
 class Thinker:
