@@ -534,3 +534,22 @@ def test_without_exchanges_the_model_is_asked() -> None:
     study = Study(likeness(), active=[HELD, LARGE], dormant=[EMPTY], exchange=False)
     assert study.inventor.invent().inconsistencies
     assert study.proposer.asked
+
+
+def test_what_else_changed_is_rather_asked_where_other_things_hold() -> None:
+    """And again only when twice as much was executed (D26)."""
+    notebook = Notebook(KITCHEN)
+    take = ("Take(r, a)", "held(a)")
+    notebook.success("empty(r)", *take)
+    notebook.success("empty(r) round(b)", take[0], "held(a) round(b)")
+    study = Study(notebook, active=[EMPTY, HELD, ROUND], unnoticed_everywhere=True)
+    study.inventor.invent()
+    notebook.success("empty(r) round(a)", take[0], "held(a) round(a)")
+    study.inventor.invent()
+    assert len(study.proposer.asked) == 1
+    notebook.success("empty(r) #2", take[0], "held(a) #2")
+    study.inventor.invent()
+    asked = [question[0].culprit for question in study.proposer.asked]
+    assert len(asked) == 2
+    assert asked[0] in (0, 1)
+    assert asked[1] == 2
