@@ -10,10 +10,10 @@ from __future__ import annotations
 import argparse
 import statistics
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from benchmarks.worlds.measure import read_settings, with_settings
+from benchmarks.worlds.measure import least_recall, settings_of
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.evaluation.exact.exact_reader import ExactReader
 from skillwrapper.evaluation.exact.exact_states import scene_states
@@ -24,7 +24,6 @@ from skillwrapper.runs.events import IterationFinished, RunEvent
 from skillwrapper.runs.launch import learn
 from skillwrapper.runs.models import open_model
 from skillwrapper.runs.results import LearningResult
-from skillwrapper.runs.settings import RunSettings
 from skillwrapper.vlm.limits import CallBudget, LimitedModel
 
 
@@ -47,8 +46,7 @@ class Stage:
     @property
     def least(self) -> float:
         """The least recall of a skill."""
-        recalls = (tally.recall for tally in self.found.by_skill.values())
-        return min((recall for recall in recalls if recall is not None), default=0)
+        return least_recall(self.found)
 
     @property
     def is_exact(self) -> bool:
@@ -98,10 +96,10 @@ def judge(domain: str) -> list[LabelledStates]:
 
 def measure(
     domain: str, seed: int, at: Sequence[int], scenes: Sequence[LabelledStates],
-    settings: Mapping[str, object],
+    assigned: Sequence[str],
 ) -> list[Stage]:  # fmt: skip
     """Learn with one seed, and judge on the way."""
-    run = with_settings(RunSettings(domain=domain, seed=seed), settings)
+    run = settings_of(assigned, domain=domain, seed=seed)
     run = run.model_copy(update={"iterations": -(-max(at) // run.exploration.budget)})
     budget = CallBudget()
     watch = Stages(at, scenes, budget)
@@ -119,11 +117,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE")
     given = parser.parse_args(arguments)
     first, _, last = given.seeds.partition("-")
-    scenes, settings = judge(given.domain), read_settings(given.set)
+    scenes = judge(given.domain)
     found: list[list[Stage]] = []
     for seed in range(int(first), int(last or first) + 1):
         started = time.process_time()
-        found.append(measure(given.domain, seed, given.at, scenes, settings))
+        found.append(measure(given.domain, seed, given.at, scenes, given.set))
         for stage in found[-1]:
             print(f"seed {seed:2d} {stage}", flush=True)
         print(f"        {time.process_time() - started:.0f} CPU-seconds", flush=True)

@@ -17,7 +17,7 @@ from benchmarks.worlds.depot import Depot
 from benchmarks.worlds.harbour import Harbour
 from benchmarks.worlds.laboratory import Laboratory
 from benchmarks.worlds.laundry import Laundry
-from benchmarks.worlds.measure import Outcome, measure, read_settings
+from benchmarks.worlds.measure import Outcome, measure
 from benchmarks.worlds.styles import STYLES
 from benchmarks.worlds.warehouse import Warehouse
 from benchmarks.worlds.workshop import Workshop
@@ -42,12 +42,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE")
     parser.add_argument("--told", action="store_true", help="print choices, model and causes")
     given = parser.parse_args(arguments)
-    settings = read_settings(given.set)
     for name in given.world:
         for seed in given.seeds:
             for style in given.style or [STYLES[seed % len(STYLES)]]:
                 found = measure(
-                    worlds[name], seed, given.executions, style, settings, told=given.told
+                    worlds[name], seed, given.executions, style, given.set, told=given.told
                 )
                 print(f"{name:10s} seed {seed:2d} {style:6s} {found}", flush=True)
                 if given.told:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import ast
 import random
 import resource
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -28,8 +27,15 @@ from skillwrapper.runs.events import IterationFinished, PredicateDecided, RunEve
 from skillwrapper.runs.launch import learn
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
+from skillwrapper.runs.settings_layers import SettingsLayers
 from skillwrapper.vlm.assistant import Assistant
 from skillwrapper.vlm.models import ModelSet
+
+
+def least_recall(found: Verification) -> float:
+    """The least recall of a skill; 0 if none is defined."""
+    recalls = (tally.recall for tally in found.by_skill.values())
+    return min((recall for recall in recalls if recall is not None), default=0.0)
 
 
 @dataclass(frozen=True)
@@ -61,11 +67,10 @@ class Outcome:
     def __str__(self) -> str:
         solved, solvable = self.solved
         found, figures = self.found, self.result.figures
-        least = min((t.recall for t in found.by_skill.values() if t.recall is not None), default=0)
         memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
         return (
             f"solved {solved:2d}/{solvable}  P {found.precision or 0:.3f} R {found.recall or 0:.3f}"
-            f" least {least:.2f} E {found.effect_accuracy or 0:.3f}  calls "
+            f" least {least_recall(found):.2f} E {found.effect_accuracy or 0:.3f}  calls "
             f"{sum(self.reader.asked.values()):5d}  left {figures.unresolved:2d}  predicates "
             f"{figures.predicates:2d} operators {figures.operators:2d}  iteration "
             f"{max(self.seconds):5.1f} s at most  step {np.median(self.steps):.2f}/"
@@ -120,18 +125,18 @@ class TrueReader:
 
 
 def measure(
-    kind: type[World], seed: int, executions: int, style: str, settings: dict[str, object],
+    kind: type[World], seed: int, executions: int, style: str, assigned: Sequence[str],
     *, told: bool = False,
 ) -> Outcome:  # fmt: skip
     """Learn in a world with a reader in some style, and try all problems."""
     world = kind()
     reader, watch = CarefulReader(world, style, seed), _Watch(told)
     budget = 15
-    run = RunSettings.model_validate({
-        "domain": world.domain.name, "seed": seed, "iterations": -(-executions // budget),
-        "exploration": {"budget": budget},
-    })  # fmt: skip
-    result = learn(with_settings(run, settings), environment=world, model=reader, observers=[watch])
+    run = settings_of(
+        assigned, domain=world.domain.name, seed=seed, iterations=-(-executions // budget),
+        exploration={"budget": budget},
+    )  # fmt: skip
+    result = learn(run, environment=world, model=reader, observers=[watch])
     solver = ModelSolver(
         world=ProblemWorld(world),
         model=result.model,
@@ -148,28 +153,14 @@ def measure(
     )  # fmt: skip
 
 
-def read_settings(texts: Sequence[str]) -> dict[str, object]:
-    """Settings that are given as NAME=VALUE."""
-    return {name: _value(value) for name, _, value in (text.partition("=") for text in texts)}
-
-
-def _value(text: str) -> object:
-    try:
-        return ast.literal_eval(text)
-    except (SyntaxError, ValueError):
-        return text
-
-
-def with_settings(run: RunSettings, settings: Mapping[str, object]) -> RunSettings:
-    """Settings with some replaced, whose names have dots."""
-    data = run.model_dump()
-    for name, value in settings.items():
-        *path, last = name.split(".")
-        part = data
-        for key in path:
-            part = part[key]
-        part[last] = value
-    return RunSettings.model_validate(data)
+def settings_of(assigned: Sequence[str], **given: object) -> RunSettings:
+    """Settings by name, and over them what is given as NAME=VALUE."""
+    layers = SettingsLayers(RunSettings)
+    for name, value in given.items():
+        layers.add_any(name, value)
+    for text in assigned:
+        layers.assign(text)
+    return layers.build()
 
 
 def _truth(kind: type[World], reader: CarefulReader, world: World) -> dict[str, LabelledStates]:
