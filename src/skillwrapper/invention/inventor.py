@@ -262,16 +262,12 @@ class Inventor:
         fresh = self._vocabulary.fresh(proposed, rejected)
         is_named = self._try(inconsistency, fit, fresh, dormant=False)
         if _is_of_a_change(inconsistency):
-            executions, silent = (
-                len(self._fitter.recorded),
-                fit.skill(inconsistency.skill).unnoticed,
-            )
             self._unnoticed.note(
                 inconsistency,
-                executions,
+                len(self._fitter.recorded),
                 nothing=not proposed,
                 in_vain=not is_named,
-                silent=silent is not None,
+                silent=fit.skill(inconsistency.skill).unnoticed is not None,
             )
         if is_named:
             return

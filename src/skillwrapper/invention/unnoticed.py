@@ -6,9 +6,11 @@ First come skills of which all successes seem to change nothing, then what else 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from skillwrapper.grounding import UNKNOWN, AtomSpace
 from skillwrapper.learning.fitting import Fit, SkillFit
@@ -18,23 +20,39 @@ from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.recorded import RecordedTransitions
-from skillwrapper.transitions.tables import SkillTable
+from skillwrapper.transitions.tables import Group
 from skillwrapper.world.skills import SkillInstance
 
 _GROWTH, _LATER, _AGAIN = 1.5, 2.0, 4.0
 _ALIKE = 4
 """So many pictures that look alike to the vocabulary are compared with one another."""
 
-_Key = tuple[bytes, LiftedChange]
 _Context = tuple[str, LiftedChange, SkillInstance, bytes]
 """A success by its skill, its change, and what held of its arguments before."""
 
 
-_Success = tuple[bool, bool, int, int, int, _Key]
-"""Whether other things held around it than around those that were asked about; whether it is the
-first of its episode, if that counts; how seldom it was shown; how much was done since the same was
-last done; its number; what it exemplifies: the state if nothing seems to change, else the change.
-"""
+class _Success(NamedTuple):
+    """A success that may be asked about; of two, the larger one is the better.
+
+    Attributes:
+        is_new: whether other things held around it than around those that were asked about.
+        is_first: whether it is the first of its instance in an episode, if that counts.
+        seldom: how seldom it was shown.
+        news: how much was done since the same was last done.
+        number: its number, which no other one has.
+        state: what it exemplifies if nothing seems to change; else empty.
+        change: what it is known to change.
+        context: what it was like.
+    """
+
+    is_new: bool
+    is_first: bool
+    seldom: int
+    news: int
+    number: int
+    state: bytes
+    change: LiftedChange
+    context: _Context
 
 
 class UnnoticedChanges:
@@ -72,28 +90,28 @@ class UnnoticedChanges:
             fit: what is learned.
             recorded: all transitions so far.
         """
-        executions, news, first = len(recorded), _news(recorded), _first(recorded)
+        executions, news = len(recorded), _news(recorded)
         silent = [of_skill for of_skill in fit.each() if of_skill.unnoticed is not None]
         others = [s for s in fit.each() if s not in silent] if self._everywhere else []
         for of_skill in (*silent, *others):
             name = of_skill.skill
             if executions >= self._next.get(name, 0):
                 is_wide = of_skill in silent and self._in_vain[name, True] > 0
-                left = self._open(of_skill, news, first, is_wide)
+                left = self._open(of_skill, news, is_wide)
                 if of_skill not in silent:
                     if self._in_vain[name, False] >= self._most:
                         continue
                     left = (one for one in left if executions >= self._due(name, one))
                 found = max(left, default=None)
                 if found is not None:
-                    is_wide = is_wide or of_skill not in silent
-                    return _question(name, found[4], found[5], wide=is_wide)
+                    self._context_of[found.number] = found.context
+                    return _question(name, found, wide=is_wide or of_skill not in silent)
         return None
 
     def _due(self, skill: str, success: _Success) -> float:
         """After how many executions it is time to ask about a success of a telling skill."""
-        is_new, change = success[0], success[5][1]
-        return (_LATER if is_new else _AGAIN) * self._last.get((skill, change), 0)
+        last = self._last.get((skill, success.change), 0)
+        return (_LATER if success.is_new else _AGAIN) * last
 
     def note(
         self, asked: Inconsistency, executions: int, *, nothing: bool, in_vain: bool, silent: bool
@@ -120,41 +138,53 @@ class UnnoticedChanges:
             self._settled.add((asked.skill, state, asked.wide))
 
     def _open(
-        self, of_skill: SkillFit, news: Mapping[int, int], first: Collection[int], wide: bool
+        self, of_skill: SkillFit, news: Mapping[int, _News], wide: bool
     ) -> Iterator[_Success]:
         """Successes that may be asked about, the best the largest.
 
         Some things change only the first time, others only later: so every other question is
         rather about the first time in an episode.
         """
-        silent = of_skill.unnoticed is not None
+        silent, name = of_skill.unnoticed is not None, of_skill.skill
         for prediction in of_skill.predictions:
             table = prediction.table
             for group in table.successes:
-                change = group.lifting.change
+                change, near = group.lifting.change, _near(group)
+                may_be_first = self._times[name, change] % 2 == 0
                 for row in group.rows[~table.unchanged[group.rows] & ~table.hanging[group.rows]]:
-                    number, state = int(table.ids[row]), table.before[row].tobytes()
-                    example = (state, change) if silent else (b"", change)
+                    number, before = int(table.ids[row]), table.before[row]
+                    state = before.tobytes() if silent else b""
                     changes = silent or table.change[row].any()
-                    if changes and (of_skill.skill, example[0], wide) not in self._settled:
-                        context = _context(table, int(row), change)
-                        self._context_of[number] = context
-                        yield (
+                    if changes and (name, state, wide) not in self._settled:
+                        context = name, change, group.instance, before[near].tobytes()
+                        yield _Success(
                             context not in self._contexts,
-                            number in first and self._times[of_skill.skill, change] % 2 == 0,
+                            may_be_first and news[number].is_first,
                             -self._shown[number, wide],
-                            news[number],
+                            news[number].successes,
                             number,
-                            example,
+                            state,
+                            change,
+                            context,
                         )
 
 
-def _news(recorded: RecordedTransitions) -> dict[int, int]:
-    """For every success what had succeeded since the same was last done in the episode.
+class _News(NamedTuple):
+    """What had succeeded in an episode since the same was last done: the more, the more there may
+    be for it to change.
 
-    The more, the more there may be for it to change.
+    Attributes:
+        successes: how many.
+        is_first: whether the same was never done before in the episode.
     """
-    news: dict[int, int] = {}
+
+    successes: int
+    is_first: bool
+
+
+def _news(recorded: RecordedTransitions) -> dict[int, _News]:
+    """For every success what had succeeded since the same was last done in the episode."""
+    news: dict[int, _News] = {}
     last: dict[SkillInstance, int] = {}
     successes, seen = 0, ""
     for number, record in enumerate(recorded.records):
@@ -164,42 +194,28 @@ def _news(recorded: RecordedTransitions) -> dict[int, int]:
         seen = transition.after.key
         if transition.success:
             successes += 1
-            news[number] = successes - last.get(transition.instance, 0)
+            before = last.get(transition.instance, 0)
+            news[number] = _News(successes - before, is_first=before == 0)
             last[transition.instance] = successes
     return news
 
 
-def _first(recorded: RecordedTransitions) -> frozenset[int]:
-    """The successes that were the first of their instance in an episode."""
-    found: set[int] = set()
-    done: set[SkillInstance] = set()
-    seen = ""
-    for number, record in enumerate(recorded.records):
-        transition = record.transition
-        if transition.before.key != seen:
-            done.clear()
-        seen = transition.after.key
-        if transition.success and transition.instance not in done:
-            done.add(transition.instance)
-            found.add(number)
-    return frozenset(found)
+def _near(group: Group) -> NDArray[np.bool_]:
+    """The atoms (atoms,) that say something of an argument."""
+    arguments = {*group.instance.arguments}
+    own = [not arguments.isdisjoint(atom.terms) for atom in group.table.space.atoms]
+    return np.array(own, dtype=bool)
 
 
-def _context(table: SkillTable, row: int, change: LiftedChange) -> _Context:
-    instance = table.instances[table.which[row]]
-    own = [not {*instance.arguments}.isdisjoint(atom.terms) for atom in table.space.atoms]
-    return instance.skill, change, instance, table.before[row][np.array(own, dtype=bool)].tobytes()
-
-
-def _question(skill: str, number: int, example: _Key, *, wide: bool) -> Inconsistency:
-    kind = InconsistencyKind.UNNOTICED
+def _question(skill: str, success: _Success, *, wide: bool) -> Inconsistency:
+    kind, number = InconsistencyKind.UNNOTICED, success.number
     return Inconsistency(
         kind,
         skill,
         first=number,
         second=None,
         culprit=number,
-        identity=(skill, kind, (example[0],), example[1]),
+        identity=(skill, kind, (success.state,), success.change),
         wide=wide,
     )
 
