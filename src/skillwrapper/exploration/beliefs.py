@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,9 @@ class Expectations:
     unlike: NDArray[np.float64]
 
 
+_FIGURES = len(fields(Expectations))
+
+
 class SkillBeliefs:
     """What is believed of one skill after one fit; remembers what it worked out.
 
@@ -61,9 +65,12 @@ class SkillBeliefs:
         self._types = fit.domain.types.names
         self.of_skill: SkillFit = fit.skill(skill)
         self.spaces: tuple[VersionSpace, ...] = version_spaces(fit, skill, doubt=doubt)
-        self._failures = self._seen(success=False)
-        self._successes = self._seen(success=True)
-        self._tried = frozenset(self._attempted())
+        seen = [
+            see_features(table.space, attempts_of(table), self._types) for table in self._tables
+        ]
+        self._failures = self._of(seen, success=False)
+        self._successes = self._of(seen, success=True)
+        self._tried = frozenset(self._attempted(seen))
         self._worked = frozenset(self._kinds(success=True))
         self._failed = self._kinds(success=False)
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
@@ -71,7 +78,7 @@ class SkillBeliefs:
     def expect(
         self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
     ) -> NDArray[np.float64]:
-        """The figures of ``Expectations``, in its order (8, states, instances).
+        """The figures of ``Expectations``, in its order (figures, states, instances).
 
         Args:
             space: the ground atoms of the whole vocabulary in the scene.
@@ -95,25 +102,25 @@ class SkillBeliefs:
         failing = np.ones(len(attempts))
         for version_space in self.spaces:
             failing *= 1 - version_space.success_probability(space, attempts)
-        novelty = self._novelty(space, states, attempts, instances)
-        figures = [1 - failing, *novelty, self._unlike(space, states, attempts, instances)]
-        return np.stack(figures).reshape(8, len(states), len(instances))
+        figures = [1 - failing, *self._novelty(space, states, attempts, instances)]
+        return np.stack(figures).reshape(_FIGURES, len(states), len(instances))
 
     def _novelty(
         self, space: AtomSpace, states: Labels, attempts: Attempts, instances: list[SkillInstance]
     ) -> list[NDArray[np.float64]]:
         """Beside failures and beside successes; all is new beside nothing."""
-        if not self.of_skill.predictions:
-            return [np.ones(len(attempts))] * 6
-        useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
-        columns = [space.column[atom] for atom in useful.atoms]
-        looked_up = AbstractStates(states[:, columns])
+        if not self._tables:
+            return [np.ones(len(attempts))] * (_FIGURES - 1)
+        useful = AtomSpace(self._tables[0].space.predicates, space.objects)
+        labels = states[:, [space.column[atom] for atom in useful.atoms]]
+        looked_up = AbstractStates(labels)
         useful_attempts = Attempts(looked_up, attempts.arguments, attempts.rows, attempts.which)
         seen = see_features(useful, useful_attempts, self._types)
         failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
         promise = self._promise(space, seen, attempts)
         untried = self._untried(seen, attempts, instances)
-        return [failed.alone, failed.pairs, promise, done.alone, done.pairs, untried]
+        unlike = self._unlike(useful, labels, instances)[attempts.rows, attempts.which]
+        return [failed.alone, failed.pairs, promise, done.alone, done.pairs, untried, unlike]
 
     def _untried(
         self, seen: Features, attempts: Attempts, instances: list[SkillInstance]
@@ -126,20 +133,16 @@ class SkillBeliefs:
         return np.array([key not in self._tried for key in keys], dtype=np.float64)
 
     def _unlike(
-        self, space: AtomSpace, states: Labels, attempts: Attempts, instances: list[SkillInstance]
+        self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
     ) -> NDArray[np.float64]:
-        """Beside all that held where the instance succeeded (attempts,)."""
-        found = np.ones((len(states), len(instances)))
-        if self.of_skill.predictions:
-            useful = AtomSpace(self.of_skill.predictions[0].table.space.predicates, space.objects)
-            tables = [p.table for p in self.of_skill.predictions if p.table.space == useful]
-            seen = _values(states[:, [space.column[atom] for atom in useful.atoms]])
-            for number, instance in enumerate(instances):
-                rows = [table.before[_successes(table, instance)] for table in tables]
-                earlier = np.vstack([np.zeros((0, len(useful.atoms)), dtype=np.int8), *rows])
-                found[:, number] = Novelty.of(seen, _values(earlier)).pairs
-        values: NDArray[np.float64] = found[attempts.rows, attempts.which]
-        return values
+        """Beside all that held where the instance succeeded (states, instances)."""
+        tables = [table for table in self._tables if table.space == space]
+        found, seen = np.ones((len(states), len(instances))), _values(states)
+        for number, instance in enumerate(instances):
+            rows = [table.before[_successes(table, instance)] for table in tables]
+            earlier = np.vstack([states[:0], *rows])
+            found[:, number] = Novelty.of(seen, _values(earlier)).pairs
+        return found
 
     def _promise(self, space: AtomSpace, seen: Features, attempts: Attempts) -> NDArray[np.float64]:
         """Of attempts at the skill, or with such types, that never succeeded (attempts,)."""
@@ -157,30 +160,28 @@ class SkillBeliefs:
                 found[own] = promise_of(seen[own], self._failures[rows])
         return found
 
+    @cached_property
+    def _tables(self) -> list[SkillTable]:
+        return [prediction.table for prediction in self.of_skill.predictions]
+
     def _kinds(self, *, success: bool) -> list[tuple[tuple[str, ...], ...]]:
-        """The types of the arguments of earlier attempts (attempts,), in the order of ``_seen``."""
-        tables = [prediction.table for prediction in self.of_skill.predictions]
+        """The types of the arguments of earlier attempts (attempts,), in the order of ``_of``."""
         return [
             table.argument_types(row)
-            for table in tables
+            for table in self._tables
             for row in np.flatnonzero(table.success == success).tolist()
         ]
 
-    def _attempted(self) -> Iterator[tuple[SkillInstance, bytes]]:
+    def _attempted(self, seen: list[Features]) -> Iterator[tuple[SkillInstance, bytes]]:
         """Every instance that was tried, with what it saw."""
-        for prediction in self.of_skill.predictions:
-            table = prediction.table
-            seen = np.packbits(see_features(table.space, attempts_of(table), self._types), axis=1)
-            for number, row in zip(table.which.tolist(), seen, strict=True):
+        for table, own in zip(self._tables, seen, strict=True):
+            for number, row in zip(table.which.tolist(), np.packbits(own, axis=1), strict=True):
                 yield table.instances[number], bytes(row)
 
-    def _seen(self, *, success: bool) -> Features:
+    def _of(self, seen: list[Features], *, success: bool) -> Features:
         """What earlier attempts saw (attempts, features)."""
-        found = []
-        for prediction in self.of_skill.predictions:
-            table = prediction.table
-            attempts = attempts_of(table, np.flatnonzero(table.success == success))
-            found.append(see_features(table.space, attempts, self._types))
+        tables = zip(self._tables, seen, strict=True)
+        found = [own[table.success == success] for table, own in tables]
         return np.vstack(found) if found else np.zeros((0, 0), dtype=bool)
 
 
@@ -218,7 +219,7 @@ class Beliefs:
         doubt: float,
     ) -> Expectations:
         """What to expect of all instances of a scene in some states (states, atoms)."""
-        figures = np.zeros((8, len(states), len(instances)))
+        figures = np.zeros((_FIGURES, len(states), len(instances)))
         for skill in fit.domain.skills:
             numbers = [n for n, i in enumerate(instances) if i.skill == skill.name]
             if numbers:

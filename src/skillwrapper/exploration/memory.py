@@ -22,7 +22,7 @@ _FADING = 0.8
 _WEARING = 0.9
 """What is left of what is known of a single instance after its next attempt."""
 _PATIENCE = 3
-"""After three times so many failures the hope for a skill is half of what it was."""
+"""After three times so many disappointments hope and patience are half of what they were."""
 
 Signature = tuple[int, ...]
 """The roles of a skill instance's arguments."""
@@ -158,11 +158,11 @@ class Memory:
         Args:
             what: a skill, or a skill with certain types of arguments.
         """
-        return float(np.sqrt(_PATIENCE / (_PATIENCE + self.failures[what])))
+        return _worn(self.failures[what])
 
     def patience(self, skill: str) -> float:
         """What patience is left, 0 to 1, with a skill that changes nothing whenever it succeeds."""
-        return float(np.sqrt(_PATIENCE / (_PATIENCE + self.successes[skill])))
+        return _worn(self.successes[skill])
 
     def pursue(
         self, causes: Iterable[Inconsistency], scene: SceneRoles, instance: SkillInstance
@@ -237,3 +237,8 @@ class Memory:
             similar = np.isin(kinds[roles[:, place]], kinds[failed] if failed else [])
             newest = np.maximum(newest, np.where(known, 0.0, np.where(similar, 0.6, 1.0)))
         return newest
+
+
+def _worn(times: int) -> float:
+    """What is left, 0 to 1, of hope or patience after so many disappointments."""
+    return float(np.sqrt(_PATIENCE / (_PATIENCE + times)))
