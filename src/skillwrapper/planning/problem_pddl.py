@@ -13,7 +13,7 @@ from pathlib import Path
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.grounding import TRUE, GroundOperator
 from skillwrapper.planning.problem import PlanningProblem, action_name, finish_name
-from skillwrapper.symbols.pddl import comment
+from skillwrapper.symbols.pddl_layout import comment
 from skillwrapper.symbols.pddl_names import unique_name
 
 _OPEN, _DONE = "open", "done"

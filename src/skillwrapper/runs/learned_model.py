@@ -13,6 +13,7 @@ import numpy as np
 
 from skillwrapper.grounding import UNKNOWN, GroundModel, Labels
 from skillwrapper.perception.truth_table import TruthTable
+from skillwrapper.planning.export import Dialect, Export, Task, export
 from skillwrapper.planning.goals import Goal, goal_from_state, parse_goal
 from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.planning.result import PlanningResult
@@ -188,6 +189,33 @@ class LearnedModel:
         planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
         objects = state.scene.objects
         return planner.plan(self.model, objects, state.labels, wanted, keep_files=keep_files)
+
+    def export(
+        self,
+        dialect: Dialect | str,
+        start: Look | AbstractState | None = None,
+        goal: Look | AbstractState | Goal | None = None,
+        *,
+        scene: Scene | str | None = None,
+    ) -> Export:
+        """The model, and a problem if there are start and goal, for other planners.
+
+        Args:
+            dialect: for whom: ``"pddl"``, ``"up"`` or ``"plansys2"``.
+            start: a state, or a picture; what is unknown of it is written as false.
+            goal: as in ``goal``.
+            scene: as in ``read``; that of the start if it is a state.
+
+        Raises:
+            UserError: if start or goal are not what they should be, or an operator cannot be told
+                to planners of that kind.
+            ProviderError: if a model does not answer.
+        """
+        if start is None or goal is None:
+            return export(self.model, self._scene(scene), Dialect(dialect), None)
+        state = start if isinstance(start, AbstractState) else self.read(start, scene=scene)
+        task = Task(state.true, self.goal(goal, scene=state.scene))
+        return export(self.model, state.scene, Dialect(dialect), task)
 
     def expected(self, state: AbstractState, skill: SkillInstance | str) -> Expectation:
         """What the model says of running a skill.

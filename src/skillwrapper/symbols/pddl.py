@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from skillwrapper.symbols.model import AbstractModel
 from skillwrapper.symbols.operators import Absence, ConditionalEffect, Operator, Variable
+from skillwrapper.symbols.pddl_layout import block, clause, comment, conjunction
 from skillwrapper.symbols.pddl_names import PlannerNames, unique_name, variable_names
 from skillwrapper.symbols.pddl_types import PddlTypes
 from skillwrapper.symbols.predicates import Atom, Literal, Predicate
@@ -26,6 +27,7 @@ def print_problem(
     objects: Iterable[Object],
     true_atoms: Iterable[Atom],
     goal: Iterable[Literal],
+    *alternatives: Iterable[Literal],
 ) -> str:
     """A PDDL problem for the domain that ``print_domain`` prints.
 
@@ -34,13 +36,14 @@ def print_problem(
         objects: the objects of the scene.
         true_atoms: the ground atoms that are true at the start; all others are false.
         goal: the ground literals to reach.
+        alternatives: other sets of literals, each of which would do as well.
 
     Raises:
         SymbolError: if an object has types that no object of the domain has together.
     """
     scene = tuple(objects)
     printer = _Printer(model, PlannerNames.of(model, scene), PddlTypes.of(model))
-    return printer.problem(scene, true_atoms, goal)
+    return printer.problem(scene, true_atoms, (goal, *alternatives))
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,10 @@ class _Printer:
         return f"(define (domain {self.names.domain})\n" + "\n".join(parts) + "\n)\n"
 
     def problem(
-        self, objects: tuple[Object, ...], true_atoms: Iterable[Atom], goal: Iterable[Literal]
+        self,
+        objects: tuple[Object, ...],
+        true_atoms: Iterable[Atom],
+        goals: Iterable[Iterable[Literal]],
     ) -> str:
         for item in objects:
             self.types.check_object(item)
@@ -77,11 +83,11 @@ class _Printer:
             for static in self.types.static
             if static in o.types
         ]
-        wanted = [self._literal(literal, names) for literal in sorted(goal)]
+        wanted = [conjunction(self._literal(x, names) for x in sorted(goal)) for goal in goals]
         lines = [f"(define (problem {domain}-problem)", f"  (:domain {domain})"]
-        lines += _block(":objects", [self._typed(names[o.name], o.types) for o in objects])
-        lines += _block(":init", facts)
-        lines += _block(":goal", [_conjunction(wanted)])
+        lines += block(":objects", [self._typed(names[o.name], o.types) for o in objects])
+        lines += block(":init", facts)
+        lines += block(":goal", wanted if len(wanted) == 1 else [f"(or {' '.join(wanted)})"])
         return "\n".join(lines) + "\n)\n"
 
     def _requirements(self) -> Iterator[str]:
@@ -150,8 +156,8 @@ class _Printer:
         parameters = [self._typed(names[v.name], v.types) for v in operator.parameters]
         lines = [f"  (:action {self.names.operators[operator.name]}"]
         lines += [f"    :parameters ({' '.join(parameters)})"]
-        lines += _clause(":precondition", self._preconditions(operator, names))
-        lines += _clause(":effect", self._effects(operator, names))
+        lines += clause(":precondition", self._preconditions(operator, names))
+        lines += clause(":effect", self._effects(operator, names))
         return "\n".join([*lines, "  )"])
 
     def _preconditions(self, operator: Operator, names: dict[str, str]) -> Iterator[str]:
@@ -212,7 +218,7 @@ class _Printer:
         condition += [f"(not {equal})" for equal in same]
         condition += [self._literal(literal, extended) for literal in effect.condition]
         changed = self._literal(effect.effect, extended)
-        body = f"(when {_conjunction(condition)} {changed})" if condition else changed
+        body = f"(when {conjunction(condition)} {changed})" if condition else changed
         return f"(forall ({self._typed(term, quantified.types)}) {body})"
 
     def _same_as_one(
@@ -233,21 +239,3 @@ class _Printer:
     def _atom(self, atom: Atom, names: dict[str, str]) -> str:
         terms = (names[term] for term in atom.terms)
         return f"({' '.join([self.names.predicates[atom.predicate], *terms])})"
-
-
-def _conjunction(parts: Iterable[str]) -> str:
-    return f"(and {' '.join(parts)})"
-
-
-def _block(title: str, lines: Iterable[str]) -> list[str]:
-    return [f"  ({title}", *(f"    {line}" for line in lines), "  )"]
-
-
-def _clause(title: str, parts: Iterable[str]) -> list[str]:
-    return [f"    {title} (and", *(f"      {part}" for part in parts), "    )"]
-
-
-def comment(text: str) -> str:
-    """A text as a comment that ends a line; nothing for nothing."""
-    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return f" ; {line}" if line else ""

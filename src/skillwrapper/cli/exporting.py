@@ -1,0 +1,77 @@
+"""``skillwrapper export``: a learned model for other planners."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.planning import GoalReading, RunArgument, SceneOption, read_goal
+from skillwrapper.errors import ConfigurationError
+from skillwrapper.files.writing import write_atomically
+from skillwrapper.planning.export import Dialect, Export
+from skillwrapper.planning.unified import PROGRAM, to_unified_planning
+from skillwrapper.runs.learned_model import LearnedModel
+from skillwrapper.world.pictures import load_pictures
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this group."""
+    app.command()(export)
+
+
+def export(
+    run: RunArgument,
+    to: Annotated[Dialect, typer.Option(help="For whom.")],
+    out: Annotated[Path | None, typer.Option(help="Folder; default: RUN/export/DIALECT.")] = None,
+    scene: SceneOption = None,
+    init: Annotated[
+        list[str] | None, typer.Option(help="A picture of the start, [CAMERA=]FILE; one a camera.")
+    ] = None,
+    goal: Annotated[
+        list[str] | None, typer.Option(help="A picture of the goal, or an expression; repeatable.")
+    ] = None,
+    positive: GoalReading = False,
+    as_json: JsonFlag = False,
+) -> None:
+    """Write domain, problem and a table from actions to skills for other planners."""
+    folder = out or run / "export" / to
+    if bool(init) is not bool(goal):
+        raise ConfigurationError(
+            "expected both --init and --goal for a problem, or neither for the domain alone"
+        )
+    if to is Dialect.UP and not goal:
+        raise ConfigurationError("--to up: expected --init and --goal, as it makes a problem")
+    with LearnedModel.load(run) as learned:
+        if init and goal:
+            start = learned.read(load_pictures(init), scene=scene)
+            wanted = read_goal(learned, goal, scene, positive)
+            for name in (name for name, value in start.items() if value is None):
+                messages().print(f"note: {name} cannot be told from the picture; written as false")
+            exported = learned.export(to, start, wanted)
+        else:
+            exported = learned.export(to, scene=scene)
+    if to is Dialect.UP:
+        to_unified_planning(exported)  # first: it must be one
+        write_atomically(folder / "problem.py", PROGRAM)
+    written = exported.write(folder)
+    _tell(exported, written, as_json)
+
+
+def _tell(exported: Export, written: tuple[Path, ...], as_json: bool) -> None:
+    table = exported.table.to_json()
+    if as_json:
+        print_json({"files": [str(path) for path in written], **table})
+        return
+    console = results()
+    for row in exported.table.rows:
+        own, context = " ".join(row.arguments), " ".join(row.context)
+        beside = f" (beside: {context})" if context else ""
+        limits = ", ".join(f"{name} = {item}" for name, item in row.chosen.items())
+        limited = f" where {limits}" if limits else ""
+        console.print(f"{row.action}: {row.skill}({own}){beside}{limited}")
+    if len(exported.problems) > 1:
+        console.print(f"{len(exported.problems)} problems: to solve one of them is enough")
+    console.print(f"written: {', '.join(map(str, written))}")
