@@ -39,23 +39,52 @@ def find_untested(fit: Fit) -> dict[str, frozenset[Condition]]:
     }
 
 
+def find_tests(fit: Fit, learned: LearnedOperator) -> dict[Condition, tuple[int, ...]]:
+    """What puts the conditions of an operator to the test.
+
+    Returns:
+        For each condition the numbers of the transitions in which the operator does not apply for
+        want of this condition alone, in order of time; none for one that is untested.
+    """
+    signatures = {p.name: p.types for p in fit.predicates}
+    predictions = fit.skill(learned.operator.skill).predictions
+    tests = _tests(fit.domain, signatures, learned, predictions)
+    return {condition: tuple(sorted(found)) for condition, found in tests.items()}
+
+
 def _untested(
     domain: Domain,
     signatures: Mapping[str, tuple[str, ...]],
     learned: LearnedOperator,
     predictions: Sequence[TablePrediction],
 ) -> frozenset[Condition]:
+    tests = _tests(domain, signatures, learned, predictions)
+    return frozenset(condition for condition, found in tests.items() if not found)
+
+
+def _tests(
+    domain: Domain,
+    signatures: Mapping[str, tuple[str, ...]],
+    learned: LearnedOperator,
+    predictions: Sequence[TablePrediction],
+) -> dict[Condition, set[int]]:
     operator = learned.operator
     narrowed = frozenset(narrowed_types(domain, signatures, operator))
-    left: set[Condition] = {*operator.preconditions, *operator.absences, *narrowed}
+    conditions: tuple[Condition, ...] = (
+        *operator.preconditions,
+        *operator.absences,
+        *narrowed,
+    )
+    tests: dict[Condition, set[int]] = {condition: set() for condition in conditions}
     for prediction in predictions:
         indexed = IndexedOperator(operator, prediction.table.space, narrowed)
         attempts, patience = _unfulfilled(learned, prediction), _Patience()
         for bindings in find_bindings(indexed, attempts, most_unmet=1, wanted=patience):
             alone = bindings.select((bindings.unmet == 1) & ~bindings.unsure)
-            unmet = (alone.met() == FALSE).any(axis=0)
-            left -= {indexed.conditions[number] for number in np.flatnonzero(unmet)}
-    return frozenset(left)
+            for row, number in np.argwhere(alone.met() == FALSE).tolist():
+                transition = int(prediction.table.ids[alone.rows[row]])
+                tests[indexed.conditions[number]].add(transition)
+    return tests
 
 
 class _Patience:
