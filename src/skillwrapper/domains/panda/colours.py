@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from skillwrapper.domains.panda.states import BOWL, MUG, SPONGE, TEAPOT
-
-Pixels = NDArray[np.uint8]
-Mask = NDArray[np.bool_]
-Floats = NDArray[np.float64]
+from skillwrapper.domains.tabletop.colours import (
+    Floats,
+    Mask,
+    Pixels,
+    hue_saturation_value,
+    sort_pixels,
+)
 
 PORCELAIN, BROWN, WOOD = "porcelain", "brown", "wood"
 _WOOD: Final = np.array((149.0, 118.0, 85.0))
 """The table in the usual light; it is most of every picture."""
 _WOOD_HUES: Final = (20.0, 45.0)
-_BITS: Final = 5
-"""Bits of each channel by which colours are told apart."""
 
 
 def materials(pixels: Pixels) -> Mapping[str, Mask]:
@@ -29,18 +28,13 @@ def materials(pixels: Pixels) -> Mapping[str, Mask]:
     Args:
         pixels: red, green and blue (rows, columns, 3), in any light.
     """
-    steps = (np.arange(1 << _BITS) << (8 - _BITS)) + (1 << (7 - _BITS))
-    colours = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-    shares = np.clip(colours * _gain(pixels) / 255, 0.0, 1.0)
-    kept = (pixels >> (8 - _BITS)).astype(np.int32)
-    number = (kept[..., 0] << 2 * _BITS) | (kept[..., 1] << _BITS) | kept[..., 2]
-    return MappingProxyType({name: is_it[number] for name, is_it in _told_apart(shares).items()})
+    return sort_pixels(pixels, _gain(pixels), _told_apart)
 
 
 def _gain(pixels: Pixels) -> Floats:
     """By what red, green and blue must grow (3,) for the table to have its usual colour."""
     sample = pixels[pixels.shape[0] // 3 :: 4, ::4].reshape(-1, 3).astype(np.float64)
-    hue, saturation, value = _hue_saturation_value(sample / 255)
+    hue, saturation, value = hue_saturation_value(sample / 255)
     wooden = (saturation > 0.2) & (saturation < 0.85) & (value > 0.15)
     wooden &= (hue > _WOOD_HUES[0] - 15) & (hue < _WOOD_HUES[1] + 15)
     if wooden.sum() < len(sample) // 10:
@@ -50,7 +44,7 @@ def _gain(pixels: Pixels) -> Floats:
 
 def _told_apart(colours: Floats) -> Mapping[str, Mask]:
     """Which colours (n, 3), from 0 to 1 in the usual light, are of each material (n,)."""
-    hue, saturation, value = _hue_saturation_value(colours)
+    hue, saturation, value = hue_saturation_value(colours)
     vivid = saturation > 0.55
     bright_red = ((hue < 14) | (hue > 335)) & vivid & (value > 0.27)
     dark = (saturation > 0.45) & (value < 0.42)
@@ -64,17 +58,3 @@ def _told_apart(colours: Floats) -> Mapping[str, Mask]:
         BROWN: dark & (hue > 6) & (hue < 45) & ~bright_red,
         WOOD: wooden & (saturation > 0.25) & (saturation < 0.6),
     }
-
-
-def _hue_saturation_value(shares: Floats) -> tuple[Floats, Floats, Floats]:
-    """Hue in degrees, saturation and value from 0 to 1 (...), of red, green, blue (..., 3)."""
-    red, green, blue = (shares[..., c] for c in range(3))
-    value, least = shares.max(axis=-1), shares.min(axis=-1)
-    spread = value - least
-    safe = np.maximum(spread, 1e-6)
-    hue = np.where(
-        value == red,
-        ((green - blue) / safe) % 6,
-        np.where(value == green, (blue - red) / safe + 2, (red - green) / safe + 4),
-    )
-    return 60 * hue, spread / np.maximum(value, 1e-6), value

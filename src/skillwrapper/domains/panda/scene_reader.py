@@ -14,16 +14,12 @@ from typing import Final
 import numpy as np
 
 from skillwrapper.domains.panda.cameras import CAMERAS
-from skillwrapper.domains.panda.colours import (
-    BROWN,
-    PORCELAIN,
-    WOOD,
-    Mask,
-    materials,
-)
+from skillwrapper.domains.panda.colours import BROWN, PORCELAIN, WOOD, materials
 from skillwrapper.domains.panda.states import BOWL, MUG, PICKUPABLE, PLATE, ROBOT, SPONGE, TEAPOT
-from skillwrapper.domains.panda.table_map import around, best_disc, camera_of, seen_from_above
+from skillwrapper.domains.panda.table_map import around, best_disc, seen_from_above
 from skillwrapper.domains.tabletop.cameras import HEIGHT, WIDTH
+from skillwrapper.domains.tabletop.colours import Mask
+from skillwrapper.domains.tabletop.views import camera_of
 from skillwrapper.embedded.pixels import decode_pixels
 from skillwrapper.embedded.scene_graph import Box, SceneGraph, Thing
 from skillwrapper.errors import PictureError
@@ -80,7 +76,7 @@ def read_panda_scene(png: bytes) -> SceneGraph:
         PictureError: if it is no picture, or shows no such table.
     """
     seen = materials(decode_pixels(png, WIDTH, HEIGHT))
-    camera = camera_of(seen[WOOD])
+    camera = camera_of(seen[WOOD], CAMERAS)
     if camera is None:
         raise PictureError("expected a picture of the table with the arm, found no such table")
     view = _View(seen, camera)

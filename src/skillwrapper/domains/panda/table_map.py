@@ -1,4 +1,4 @@
-"""The table seen from above, made of a picture of a known camera; and which camera took it."""
+"""The table seen from above, made of a picture of a known camera."""
 
 from __future__ import annotations
 
@@ -9,16 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.domains.panda.cameras import CAMERAS
-from skillwrapper.domains.panda.colours import Mask
+from skillwrapper.domains.tabletop.colours import Mask
 
 CELL: Final = 0.004
 """Metres."""
 _X, _Y = np.arange(0.26, 0.80, CELL), np.arange(-0.52, 0.52, CELL)
-_TABLE_CORNERS: Final = ((-0.18, -0.65, 0), (0.82, -0.65, 0), (0.82, 0.65, 0), (-0.18, 0.65, 0))
-_COARSE: Final = 8
-"""Every so many pixels are looked at to tell cameras apart."""
-_LEAST_AGREEMENT: Final = 0.5
-"""So much of where the table is, or should be, must be both."""
 
 
 def seen_from_above(mask: Mask, camera: str, height: float) -> Mask:
@@ -53,21 +48,6 @@ def best_disc(liked: Mask, disliked: Mask, radius: float) -> tuple[tuple[float, 
     return place, float(liked[inside].sum() / max(1, inside.sum()))
 
 
-def camera_of(wood: Mask) -> str | None:
-    """The camera that took a picture, by where the table is in it (rows, columns).
-
-    None if the table is nowhere where one of the cameras would see it.
-    """
-    coarse = wood[::_COARSE, ::_COARSE]
-
-    def agreement(camera: str) -> float:
-        table = _table_seen(camera, wood.shape)
-        return float((coarse & table).sum() / (coarse | table).sum())
-
-    best = max(CAMERAS, key=agreement)
-    return best if agreement(best) > _LEAST_AGREEMENT else None
-
-
 @lru_cache(maxsize=32)
 def _places(
     camera: str, height: float, shape: tuple[int, ...]
@@ -78,21 +58,6 @@ def _places(
     columns, rows = CAMERAS[camera].project(points, shape[1], shape[0])
     inside = (columns >= 0) & (columns < shape[1]) & (rows >= 0) & (rows < shape[0])
     return rows.astype(np.int64), columns.astype(np.int64), inside
-
-
-@lru_cache(maxsize=32)
-def _table_seen(camera: str, shape: tuple[int, ...]) -> Mask:
-    """Where the empty table is in the picture of a camera, in coarse pixels."""
-    corners = np.column_stack(CAMERAS[camera].project(_TABLE_CORNERS, shape[1], shape[0]))
-    rows, columns = np.mgrid[0 : shape[0] : _COARSE, 0 : shape[1] : _COARSE]
-    inside = np.ones(rows.shape, dtype=bool)
-    middle = corners.mean(axis=0)
-    for first, second in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        edge = second - first
-        side = edge[0] * (rows - first[1]) - edge[1] * (columns - first[0])
-        inner = edge[0] * (middle[1] - first[1]) - edge[1] * (middle[0] - first[0])
-        inside &= side * inner >= 0
-    return inside
 
 
 def _disc(radius: float) -> NDArray[np.float64]:
