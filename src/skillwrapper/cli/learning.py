@@ -35,6 +35,7 @@ from skillwrapper.cli.ways_to_run import (
     person,
     run_folder,
 )
+from skillwrapper.domains.discovery import find_domain
 from skillwrapper.errors import ConfigurationError
 from skillwrapper.robots.process import ProcessRobot
 from skillwrapper.runs.archive import RunArchive
@@ -45,6 +46,9 @@ from skillwrapper.runs.launch import learn_recorded
 from skillwrapper.runs.models import asks_person, check_models
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
+from skillwrapper.symbols.describe import describe_predicate
+from skillwrapper.symbols.files import read_predicates
+from skillwrapper.world.domain import Domain
 
 
 def register(app: typer.Typer) -> None:
@@ -68,6 +72,10 @@ def learn(
             "--no-execute", help="Learn from what is recorded in a run; DOMAIN is its folder."
         ),
     ] = False,
+    predicates: Annotated[
+        Path | None,
+        typer.Option(help="predicates.yaml to start from, e.g. of another run: tried first."),
+    ] = None,
     seed: Annotated[int | None, option("seed")] = None,
     iterations: Annotated[int | None, option("iterations")] = None,
     budget: Annotated[int | None, option("budget")] = None,
@@ -107,8 +115,10 @@ def learn(
     if no_execute:
         if config is not None:
             raise ConfigurationError("--config: a run keeps its settings; change them with --set")
-        _learn_recorded(domain or out, options, assignments or (), as_json)
+        _learn_recorded(domain or out, options, assignments or (), predicates, as_json)
         return
+    if predicates is not None and domain is not None:
+        options |= _known(predicates, find_domain(domain).domain)
     settings = run_settings(config, options, assignments or ())
     if dry_run:
         _estimate(settings, as_json)
@@ -132,18 +142,27 @@ def _learn_recorded(
     run: str | Path | None,
     options: Mapping[str, tuple[str, Any]],
     assignments: Sequence[str],
+    predicates: Path | None,
     as_json: bool,
 ) -> None:
     if run is None:
         raise ConfigurationError("--no-execute: expected the folder of a run, as in: learn RUN")
     folder = Path(run)
-    layout = RunArchive.open(folder).layout
+    archive = RunArchive.open(folder)
     given = {name: value for name, value in options.items() if name != "domain"}
-    settings = run_settings(layout.config, given, assignments)
+    if predicates is not None:
+        given |= _known(predicates, archive.domain())
+    settings = run_settings(archive.layout.config, given, assignments)
     plain = asks_person(settings.model)
     with RunProgress(messages(plain)) as progress, time_limit(settings.calls.max_seconds):
         result = learn_recorded(folder, settings, observers=[progress])
     _tell_result(folder, progress, result, as_json)
+
+
+def _known(path: Path, domain: Domain) -> dict[str, tuple[str, Any]]:
+    """The predicates of a file, as a setting."""
+    told = [describe_predicate(predicate) for predicate in read_predicates(path, domain)]
+    return {"predicates": ("--predicates", told)}
 
 
 def _tell_result(out: Path, progress: RunProgress, result: LearningResult, as_json: bool) -> None:

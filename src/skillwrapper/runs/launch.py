@@ -8,7 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import ProviderError, RunFolderError, UserError
+from skillwrapper.errors import (
+    ConfigurationError,
+    ProviderError,
+    RunFolderError,
+    SymbolError,
+    UnknownNameError,
+    UserError,
+)
 from skillwrapper.robots.absent import AbsentRobot
 from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm, Respondent
 from skillwrapper.runs.archive import (
@@ -26,7 +33,10 @@ from skillwrapper.runs.models import check_models
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.runs.settings_layers import SettingsLayers
+from skillwrapper.symbols import Predicate
+from skillwrapper.symbols.predicates import parse_predicate
 from skillwrapper.vlm.protocol import VisionLanguageModel
+from skillwrapper.world.domain import Domain
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.robot import Robot, RobotEnvironment
 
@@ -136,17 +146,20 @@ def _run(
     store = archive.layout.calls if archive else None
     with open_session(settings, store, model=model) as session:
         watching: list[Observer] = [_iteration_counter(session.counter)]
-        earlier, corrections = None, Corrections()
+        words = _words(settings, environment.domain)
+        earlier, corrections = EarlierRun(words=words), Corrections()
         if archive is not None:
             watching.append(ArchiveWriter(archive))
             corrections = Corrections.of(archive.corrections())
+            corrected = map(corrections.applied, words)
+            words = tuple(p for p in corrected if p and p.name not in corrections.words)
             # What was chosen before a correction is not what would be chosen after it.
             as_it_is = is_all or bool(corrections)
             earlier = EarlierRun(
                 archive.episode,
                 archive.layout.finished_iterations(),
                 as_it_is,
-                tuple(corrections.words.values()),
+                (*words, *corrections.words.values()),
             )
         watching += observers
         for observer in watching:
@@ -156,6 +169,27 @@ def _run(
         if corrections:
             assistant = CorrectedRespondent(assistant, corrections)
         return LearningAlgorithm(settings, environment, assistant, watching, earlier).run()
+
+
+def _words(settings: RunSettings, domain: Domain) -> tuple[Predicate, ...]:
+    """The predicates that are known beforehand.
+
+    Raises:
+        ConfigurationError: if one is no predicate, or of a type that the domain does not have.
+    """
+    found: dict[str, Predicate] = {}
+    for text in settings.predicates:
+        try:
+            predicate = parse_predicate(text)
+        except SymbolError as error:
+            raise ConfigurationError(f"predicates: {error}") from error
+        for name in predicate.types:
+            if name not in domain.types.parents:
+                raise UnknownNameError("type", name, domain.types.names, f"predicates: '{text}'")
+        if predicate.name in found:
+            raise ConfigurationError(f"predicates: '{predicate.name}' is defined twice")
+        found[predicate.name] = predicate
+    return tuple(found.values())
 
 
 def _settings(

@@ -166,6 +166,11 @@ class SharedSettings(BaseModel):
         default=(),
         description="scenes to learn in, one iteration each in turn; empty for all of the domain",
     )
+    predicates: tuple[str, ...] = Field(
+        default=(),
+        description="predicates that are known beforehand, each as name(?type, ...): meaning; they "
+        "are tried before a model is asked",
+    )
     exploration: ExplorationSettings = Field(
         default_factory=ExplorationSettings, description="how skill sequences are chosen"
     )

@@ -113,6 +113,18 @@ def parse_atom(text: str) -> Atom:
     return Atom(match[1], tuple(name for name in names if name))
 
 
+def parse_predicate(text: str) -> Predicate:
+    """The predicate of a text such as ``on(?cup, ?shelf): the cup stands on the shelf``.
+
+    Raises:
+        SymbolError: if the text is none.
+    """
+    signature, _, meaning = text.partition(":")
+    atom = parse_atom(signature)
+    types = tuple(term.removeprefix("?") for term in atom.terms)
+    return Predicate(atom.predicate, types, meaning.strip())
+
+
 def all_groundings(predicates: Iterable[Predicate], objects: Sequence[Object]) -> tuple[Atom, ...]:
     """The ground atoms of several predicates, in the order of the predicates."""
     return tuple(atom for predicate in predicates for atom in predicate.groundings(objects))

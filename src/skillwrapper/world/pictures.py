@@ -75,6 +75,8 @@ def load_picture(path: Path, camera: str = MAIN_CAMERA) -> Picture:
         data = read_bounded(path, _MOST_BYTES)
     except FileNotFoundError as error:
         raise PictureError(f"{path}: no such picture") from error
+    except ValueError as error:  # a null character
+        raise PictureError(f"{str(path)!r}: expected the name of a file") from error
     except OSError as error:
         raise PictureError(f"{path}: cannot be read ({error.strerror})") from error
     return _decode(data, camera, str(path))
