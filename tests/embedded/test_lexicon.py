@@ -48,6 +48,7 @@ def test_every_wording_of_its_own_is_understood_as_what_it_means() -> None:
         ("holding_something", "robot", "The robot has something in its hand.", "something held"),
         ("is_holding", "robot item", "The agent is holding the object.", "inverse held"),
         ("in_hand", "item robot", "The item is in the hand of the robot.", "held"),
+        ("left_holds", "robot item", "It holds the item in its left gripper.", "inverse held"),
         ("is_holding", "item", "The agent is holding the object.", "somewhere held"),
         ("obj_free", "item", "The object has nothing on top.", "nothing on"),
         ("nothing_on", "item", "No other ingredient lies directly on top of it.", "nothing on"),

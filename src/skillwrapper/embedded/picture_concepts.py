@@ -36,7 +36,7 @@ PICTURE_CONCEPTS = (
         "left_of", 2, ("left_of", "further_left_than"),
         ("the {0} is left of the {1} in the picture",
          "in the picture the {0} is further left than the {1}"),
-        "left",
+        r"left(?!\W+(?:hand|arm|gripper|claw)s?\b)",
     ),
     _place(
         "right_of", 2, ("right_of", "further_right_than"),
