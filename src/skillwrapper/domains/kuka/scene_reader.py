@@ -33,6 +33,8 @@ from skillwrapper.errors import PictureError
 
 _FEWEST: Final = 150
 """So many pixels of a colour are a thing and no accident."""
+_MOST: Final = 4000
+"""Nothing on the table is larger."""
 _LEFT_HAND: Final = (0.48, 0.40, 0.22)
 _RIGHT_HAND: Final = (0.45, -0.42, 0.23)
 """Where the hands wait, and what they hold with them."""
@@ -80,9 +82,9 @@ class _View:
 
     def near(self, material: str, place: Vector, metres: float) -> Mask:
         """Where a material is seen no farther from a place (2,) in the picture."""
-        rows, columns = np.indices((HEIGHT, WIDTH))
-        distance = np.hypot(columns - place[0], rows - place[1])
-        return np.asarray(self.seen[material] & (distance < self.pixels(metres)))
+        rows, columns = np.ogrid[:HEIGHT, :WIDTH]
+        squared = (columns - place[0]) ** 2 + (rows - place[1]) ** 2
+        return np.asarray(self.seen[material] & (squared < self.pixels(metres) ** 2))
 
 
 def read_kuka_scene(png: bytes) -> SceneGraph:
@@ -102,7 +104,8 @@ def read_kuka_scene(png: bytes) -> SceneGraph:
     """
     seen = materials(decode_pixels(png, WIDTH, HEIGHT))
     camera = camera_of(seen[TABLE], CAMERAS)
-    if camera is None or any(seen[name].sum() < _FEWEST for name in (HOLDER, LID, CRUMB)):
+    sizes = [int(seen[name].sum()) for name in (HOLDER, LID, CRUMB)]
+    if camera is None or min(sizes) < _FEWEST or max(sizes) > _MOST:
         raise PictureError("expected a picture of the table with two arms, found no such table")
     view = _View(seen, camera)
     things = [
@@ -163,7 +166,7 @@ def _is_in_holder(view: _View) -> bool:
 def _blade(view: _View) -> Mask:
     """Where a blade would be at either end of the handle."""
     middle, axis = _middle(view.seen[HANDLE]), _axis(view.seen[HANDLE])
-    rows, columns = np.indices((HEIGHT, WIDTH))
+    rows, columns = np.ogrid[:HEIGHT, :WIDTH]
     x, y = columns - middle[0], rows - middle[1]
     along, across = np.abs(axis[0] * x + axis[1] * y), np.abs(axis[0] * y - axis[1] * x)
     start, end = (view.pixels(length) for length in _BLADE)

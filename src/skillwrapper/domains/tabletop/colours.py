@@ -14,11 +14,14 @@ Mask = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 
 _BITS: Final = 5
-"""Bits of each channel by which colours are told apart."""
+"""Of each channel; enough for vivid colours."""
 
 
 def sort_pixels(
-    pixels: Pixels, gain: ArrayLike, told_apart: Callable[[Floats], Mapping[str, Mask]]
+    pixels: Pixels,
+    gain: ArrayLike,
+    told_apart: Callable[[Floats], Mapping[str, Mask]],
+    bits: int = _BITS,
 ) -> Mapping[str, Mask]:
     """Where each material is seen (rows, columns).
 
@@ -26,12 +29,13 @@ def sort_pixels(
         pixels: red, green and blue (rows, columns, 3).
         gain: by what these must grow (3,) to be as in the usual light.
         told_apart: says which colours (n, 3), from 0 to 1, are of each material (n,).
+        bits: of each channel, by which colours are told apart; pale ones want more.
     """
-    steps = (np.arange(1 << _BITS) << (8 - _BITS)) + (1 << (7 - _BITS))
+    steps = (np.arange(1 << bits) << (8 - bits)) + (1 << (7 - bits))
     colours = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
     shares = np.clip(colours * np.asarray(gain) / 255, 0.0, 1.0)
-    kept = (pixels >> (8 - _BITS)).astype(np.int32)
-    number = (kept[..., 0] << 2 * _BITS) | (kept[..., 1] << _BITS) | kept[..., 2]
+    kept = (pixels >> (8 - bits)).astype(np.int32)
+    number = (kept[..., 0] << 2 * bits) | (kept[..., 1] << bits) | kept[..., 2]
     return MappingProxyType({name: is_it[number] for name, is_it in told_apart(shares).items()})
 
 
