@@ -26,6 +26,7 @@ from typing import Any
 import yaml
 
 from benchmarks.damage import damage
+from benchmarks.kills import contents
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.package import DomainPackage
 from skillwrapper.domains.starting import start_project
@@ -33,6 +34,7 @@ from skillwrapper.errors import SkillWrapperError
 from skillwrapper.robots.process import ProcessRobot
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.launch import learn
+from skillwrapper.runs.model_import import import_model
 from skillwrapper.runs.recordings import import_recording
 from skillwrapper.symbols.files import read_model, read_predicates
 from skillwrapper.world.robot import RobotEnvironment
@@ -75,8 +77,10 @@ class Malformed:
         learn({"domain": str(self._whole), "iterations": 2, "exploration.budget": 6}, run)
         self._package = find_domain(str(self._whole))
         self._record(RunArchive.open(run))
-        for name in ("model.json", "predicates.yaml"):
+        for name in ("model.json", "predicates.yaml", "domain.pddl"):
             shutil.copy(run / "model" / name, self._whole)
+        self._run = RunArchive.open(run)
+        self._before = contents(run)
         (self._whole / "replier.sh").write_text(_REPLIER)
         self._things: dict[str, Callable[[Path], object]] = {
             "domain.yaml": lambda file: _read_domain(file.parent),
@@ -85,6 +89,7 @@ class Malformed:
             "replies.jsonl": self._listen,
             "model.json": lambda file: read_model(file, self._package.domain),
             "predicates.yaml": lambda file: read_predicates(file, self._package.domain),
+            "domain.pddl": lambda file: import_model(self._run, file),
         }
 
     def try_one(self, seed: int) -> Outcome:
@@ -103,6 +108,8 @@ class Malformed:
             self._things[name](file)
         except Exception as error:
             return Outcome(name, *self._judge(error, file))
+        if name == "domain.pddl":
+            self._before = contents(self._run.path)
         return Outcome(name, "read well")
 
     def _judge(self, error: Exception, file: Path) -> tuple[str, str]:
@@ -116,7 +123,8 @@ class Malformed:
         if file.name.startswith("replies"):
             named = said.startswith(("robot ", "look(): ", "run(", "scene(): "))
             return ("one sentence" if named else "names no call"), said
-        if (self._place / "copy" / "imported").exists() or list(file.parent.glob(".*.tmp")):
+        left = (file.parent / "imported").exists() or list(file.parent.glob(".*.tmp"))
+        if left or contents(self._run.path) != self._before:
             return "half imported", said
         return ("one sentence" if file.name in said else "names no file"), said
 

@@ -10,6 +10,7 @@ SkillWrapperError
 │   │   └── FileNotWritableError  ... or cannot be written
 │   ├── RunFolderError        a run folder that cannot be used
 │   ├── SymbolError           a predicate, atom or operator that is not well formed
+│   ├── RefusedModelError     an edited model that recorded data speak against
 │   └── MissingDependencyError  something must be installed
 ├── ProviderError             the provider of a model: key, endpoint, quota, reply
 │   ├── AuthenticationError
@@ -29,7 +30,7 @@ SkillWrapperError
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from skillwrapper.usage import Usage
 
@@ -103,6 +104,20 @@ class MissingDependencyError(UserError):
 
     def __init__(self, what: str, how: str) -> None:
         super().__init__(f"{what} is not installed; install it with: {how}")
+
+
+class RefusedModelError(UserError):
+    """An edited model that what is recorded speaks against.
+
+    Args:
+        path: of the model.
+        reasons: all of them, each with its place.
+    """
+
+    def __init__(self, path: object, reasons: Sequence[str]) -> None:
+        more = f" (and {len(reasons) - 1} more reasons)" if len(reasons) > 1 else ""
+        super().__init__(f"{path}: refused, the run is as it was: {reasons[0]}{more}")
+        self.reasons = tuple(reasons)
 
 
 class ProviderError(SkillWrapperError):

@@ -1,4 +1,4 @@
-"""``skillwrapper export``: a learned model for other planners."""
+"""``skillwrapper export`` and ``import-model``: learned models leave, and come back edited."""
 
 from __future__ import annotations
 
@@ -9,17 +9,23 @@ import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
 from skillwrapper.cli.planning import GoalReading, RunArgument, SceneOption, read_goal
-from skillwrapper.errors import ConfigurationError
+from skillwrapper.errors import ConfigurationError, RefusedModelError
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.planning.export import Dialect, Export
 from skillwrapper.planning.unified import PROGRAM, to_unified_planning
+from skillwrapper.runs.archive import RunArchive, reserved
 from skillwrapper.runs.learned_model import LearnedModel
+from skillwrapper.runs.model_import import import_model
 from skillwrapper.world.pictures import load_pictures
+
+_REASONS = 20
+"""So many reasons of a refusal are told."""
 
 
 def register(app: typer.Typer) -> None:
     """Add the commands of this group."""
     app.command()(export)
+    app.command(name="import-model")(import_model_)
 
 
 def export(
@@ -75,3 +81,27 @@ def _tell(exported: Export, written: tuple[Path, ...], as_json: bool) -> None:
     if len(exported.problems) > 1:
         console.print(f"{len(exported.problems)} problems: to solve one of them is enough")
     console.print(f"written: {', '.join(map(str, written))}")
+
+
+def import_model_(
+    run: RunArgument,
+    model: Annotated[Path, typer.Argument(help="An edited domain.pddl, or predicates.yaml.")],
+    as_json: JsonFlag = False,
+) -> None:
+    """Take an edited model into a run, if all that is recorded agrees with it."""
+    archive = RunArchive.open(run)
+    try:
+        with reserved(run):
+            fit = import_model(archive, model)
+    except RefusedModelError as error:
+        for reason in error.reasons[1:_REASONS]:
+            messages().print(f"also: {reason}", soft_wrap=True)
+        raise
+    operators = [learned.operator.name for learned in fit.operators]
+    if as_json:
+        print_json({"predicates": [p.name for p in fit.predicates], "operators": operators})
+        return
+    results().print(
+        f"accepted: {len(fit.predicates)} predicates, {len(operators)} operators; nothing that is "
+        "recorded speaks against them that did not before"
+    )

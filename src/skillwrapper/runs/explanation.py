@@ -115,13 +115,16 @@ def explain(known: Recollection, operator: str) -> Explanation:
     if operator.lower() not in by_name:
         names = [learned.operator.name for learned in fit.operators]
         raise UnknownNameError("operator", operator, names)
-    return _Explainer(fit, by_name[operator.lower()], tuple(_placed(known))).explain()
+    return _Explainer(fit, by_name[operator.lower()], placed_transitions(known)).explain()
 
 
-def _placed(known: Recollection) -> Iterator[PlacedTransition]:
-    for episode, recorded in enumerate(known.episodes, start=1):
-        for step, transition in enumerate(recorded.transitions, start=1):
-            yield PlacedTransition(episode, step, transition)
+def placed_transitions(known: Recollection) -> tuple[PlacedTransition, ...]:
+    """All transitions, by their numbers in what was learned."""
+    return tuple(
+        PlacedTransition(episode, step, transition)
+        for episode, recorded in enumerate(known.episodes, start=1)
+        for step, transition in enumerate(recorded.transitions, start=1)
+    )
 
 
 @dataclass(frozen=True)

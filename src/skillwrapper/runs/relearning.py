@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from skillwrapper.learning.certification import certify
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import distinct_causes
 from skillwrapper.perception.decoded_labelling import DecodedLabeller
 from skillwrapper.perception.overruling import certify_decoding
@@ -29,8 +30,18 @@ def relearn(archive: RunArchive) -> LearningResult:
         UserError: if no iteration is finished, or a file is damaged.
     """
     known = Recollection.of(archive)
-    fit, labeller = known.fit(), known.labeller
-    decoding = None
+    return write_fit(archive, known, known.fit())
+
+
+def write_fit(archive: RunArchive, known: Recollection, fit: Fit) -> LearningResult:
+    """Put what was learned anew in the place of what the last finished iteration has learned.
+
+    Args:
+        archive: of a run that nobody else works in.
+        known: what is recorded in it.
+        fit: what was learned from that.
+    """
+    labeller, decoding = known.labeller, None
     if isinstance(labeller, DecodedLabeller):
         decoding = certify_decoding(labeller, known.settings.learning.least_confidence)
     kept = _Kept.of(known.latest, known.truth.names)
