@@ -19,7 +19,7 @@ setup: .venv/.installed
 	@bash .ci/system-packages
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "skillwrapper needs Python 3.11 or newer; set PYTHON=")'
 	$(PYTHON) -m venv .venv
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,docs,gymnasium,minari,ros,sim]'
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev,docs,gymnasium,lerobot,minari,ros,sim]'
 	@$(BIN)/skillwrapper setup-sim || echo 'tests of the simulated arms will be skipped'
 	@touch $@
 

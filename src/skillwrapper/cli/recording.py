@@ -28,7 +28,7 @@ def import_(
         Path,
         typer.Argument(
             help="A file .csv or .jsonl: episode, skill, arguments, success, before, after, scene; "
-            "or a dataset of Minari."
+            "or a dataset of Minari or LeRobot."
         ),
     ],
     out: Annotated[Path, typer.Option(help="The folder to make.")],

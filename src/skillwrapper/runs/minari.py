@@ -22,9 +22,9 @@ from typing import Any
 
 import numpy as np
 
-from skillwrapper.errors import FileError, MissingDependencyError, PictureError, SymbolError
+from skillwrapper.errors import FileError, MissingDependencyError, PictureError
+from skillwrapper.runs.labelled_steps import called_skill, label_text, label_truth, segments
 from skillwrapper.runs.recorded_rows import RecordedRow
-from skillwrapper.symbols.predicates import parse_atom
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.pictures import observation_of
 
@@ -105,29 +105,26 @@ class MinariDataset:
     def _episode(self, name: str) -> Iterator[tuple[str, RecordedRow]]:
         cameras = self._cameras(name)
         steps = min(len(frames) for frames in cameras.values()) - 1
-        skills = [_text(label) for label in self._info(name, "skill", steps)]
+        skills = [label_text(label) for label in self._info(name, "skill", steps)]
         successes = self._info(name, "success", steps)
-        segments = self._info(name, "segment", steps) if self._has(name, "segment") else [0] * steps
-        marks = list(zip(skills, map(int, segments), strict=True))
-        begin = 0
-        for end in range(1, steps + 1):
-            if end < steps and marks[end] == marks[begin]:
+        parts = self._info(name, "segment", steps) if self._has(name, "segment") else [0] * steps
+        marks = list(zip(skills, map(int, parts), strict=True))
+        for begin, end in segments(marks):
+            if not skills[begin]:
                 continue
-            if skills[begin]:
-                where = f"{self._path}:{name}, steps {begin} to {end - 1}"
-                called = _called(skills[begin], where)
-                yield (
-                    where,
-                    RecordedRow(
-                        episode=name,
-                        skill=called[0],
-                        arguments=called[1],
-                        success=_truth(successes[end - 1], where),
-                        before=dict.fromkeys(cameras, f"{name}/{begin}"),
-                        after=dict.fromkeys(cameras, f"{name}/{end}"),
-                    ),
-                )
-            begin = end
+            where = f"{self._path}:{name}, steps {begin} to {end - 1}"
+            called = called_skill(skills[begin], where)
+            yield (
+                where,
+                RecordedRow(
+                    episode=name,
+                    skill=called.predicate,
+                    arguments=called.terms,
+                    success=label_truth(successes[end - 1], where),
+                    before=dict.fromkeys(cameras, f"{name}/{begin}"),
+                    after=dict.fromkeys(cameras, f"{name}/{end}"),
+                ),
+            )
 
     def _cameras(self, episode: str) -> dict[str, Any]:
         """The arrays of pictures, by camera."""
@@ -162,23 +159,3 @@ def _is_episode(name: str, group: Any) -> bool:
 def _is_pictures(array: Any) -> bool:
     shape: tuple[int, ...] = tuple(getattr(array, "shape", ()))
     return len(shape) == 4 and shape[-1] == 3 and array.dtype == np.uint8 and len(array) > 1
-
-
-def _text(label: Any) -> str:
-    return (label.decode("utf-8", "replace") if isinstance(label, bytes) else str(label)).strip()
-
-
-def _truth(value: Any, where: str) -> bool:
-    known = {"true": True, "1": True, "false": False, "0": False}.get(_text(value).lower())
-    if known is None:
-        raise FileError(f"{where}: expected success to be true or false, got '{_text(value)[:60]}'")
-    return known
-
-
-def _called(label: str, where: str) -> tuple[str, tuple[str, ...]]:
-    try:
-        called = parse_atom(label)
-    except SymbolError as error:
-        message = f"{where}: expected a skill such as Pick(arm, cube), got '{label[:60]}'"
-        raise FileError(message) from error
-    return called.predicate, called.terms

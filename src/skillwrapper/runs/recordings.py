@@ -22,6 +22,7 @@ from skillwrapper.files.json_documents import parse_record, read_entries, read_t
 from skillwrapper.files.writing import explained
 from skillwrapper.runs.archive import EpisodeFile, make_archive
 from skillwrapper.runs.episodes import EpisodeSoFar
+from skillwrapper.runs.lerobot import LeRobotDataset
 from skillwrapper.runs.minari import MinariDataset
 from skillwrapper.runs.recorded_rows import COLUMNS, RecordedRow
 from skillwrapper.runs.settings import RunSettings
@@ -47,7 +48,8 @@ def read_recording(path: Path, domain: Domain) -> tuple[EpisodeSoFar, ...]:
 
     Args:
         path: a file ``.csv`` with a line of column names, or ``.jsonl``; pictures are named
-            relative to it. Or a dataset of Minari: its folder, or its file ``.hdf5``.
+            relative to it. Or a dataset of Minari (its folder, or its file ``.hdf5``) or of
+            LeRobot (its folder).
         domain: what skills and objects there are.
 
     Raises:
@@ -56,6 +58,9 @@ def read_recording(path: Path, domain: Domain) -> tuple[EpisodeSoFar, ...]:
     if MinariDataset.is_one(path):
         with MinariDataset.open(path) as dataset:
             return _read(path, dataset.rows(), dataset, domain)
+    if LeRobotDataset.is_one(path):
+        with LeRobotDataset.open(path) as lerobot:
+            return _read(path, lerobot.rows(), lerobot, domain)
     return _read(path, _rows(path), _Pictures(path.parent), domain)
 
 
@@ -152,7 +157,7 @@ def _rows(path: Path) -> Iterator[tuple[str, RecordedRow]]:
             yield from read_entries(path, RecordedRow)
         case _:
             raise FileError(
-                f"{path}: expected a file .csv, .jsonl or .hdf5, or a folder of Minari; "
+                f"{path}: expected a file .csv, .jsonl or .hdf5, or a folder of Minari or LeRobot; "
                 "its name says none of these"
             )
 
