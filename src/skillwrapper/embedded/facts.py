@@ -77,13 +77,20 @@ class Fact:
         """
         if self.sort is Sort.PLACE:
             boxes = [graph.thing_by_name[name].box for name in self.things]
-            return _PLACES[self.name](*boxes, size)
+            is_so = _PLACES[self.name](*boxes, size)
+            return is_so and not (self.name == "near" and _are_related(graph, self.things))
         return _TRUTHS[self.sort](graph, self.name, self.things)
 
 
 def _related_to_kind(graph: SceneGraph, relation: str, things: tuple[str, ...]) -> bool:
     name, kind = things
     return any(graph.related(relation, name, other) for other in graph.names(kind))
+
+
+def _are_related(graph: SceneGraph, things: tuple[str, ...]) -> bool:
+    """Whether one is on, in, held by ... the other: nobody calls that being next to it."""
+    a, b = things
+    return any((a, b) in pairs or (b, a) in pairs for pairs in graph.relations.values())
 
 
 def _vacant(graph: SceneGraph, relation: str, things: tuple[str, ...]) -> bool:
@@ -107,6 +114,10 @@ def _nearness(a: Box, b: Box, size: Size) -> bool:
     return math.dist(a.centre, b.centre) / size[0] < _NEAR
 
 
+def _farness(a: Box, b: Box, size: Size) -> bool:
+    return not _nearness(a, b, size)
+
+
 def _is_central(a: Box, size: Size) -> bool:
     return math.dist(a.centre, (size[0] / 2, size[1] / 2)) < size[0] / 4
 
@@ -128,6 +139,7 @@ _PLACES: Mapping[str, Callable[..., bool]] = MappingProxyType(
         "left_of": lambda a, b, _: a.centre[0] < b.centre[0],
         "higher": lambda a, b, _: a.centre[1] < b.centre[1],
         "near": _nearness,
+        "far": _farness,
         "same_row": _on_one_line(1),
         "same_column": _on_one_line(0),
         "larger": lambda a, b, _: a.width * a.height > b.width * b.height,

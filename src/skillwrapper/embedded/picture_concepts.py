@@ -68,7 +68,6 @@ PICTURE_CONCEPTS = (
         "far", 2, ("far_from", "apart_from"),
         ("the {0} is far from the {1}", "there is much room between the {0} and the {1}"),
         "far (?:from|away)", "much room between", "apart", "distant",
-        opposite_of="near",
     ),
     _place(
         "same_row", 2, ("same_row_as", "level_with"),
