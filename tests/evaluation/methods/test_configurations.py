@@ -17,6 +17,7 @@ CHANGES = (
     ("ours", {}),
     ("ours-5x15", {"iterations": (10, 5), "budget": (30, 15)}),
     ("ours-3x15", {"iterations": (10, 3), "budget": (30, 15)}),
+    ("ours-15x5", {"iterations": (10, 15), "budget": (30, 5)}),
     ("random", {"explorer": ("planned", "random")}),
     ("paper-exploration", {"explorer": ("planned", "paper")}),
     ("no-heuristic", {"explorer": ("planned", "paper"), "choice": ("pareto", "uniform")}),

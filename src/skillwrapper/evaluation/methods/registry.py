@@ -11,7 +11,12 @@ from skillwrapper.evaluation.methods.fm_invent import FM_INVENT
 from skillwrapper.evaluation.methods.method import Method
 from skillwrapper.evaluation.methods.proposed_sequences import NO_HEURISTIC, PAPER_EXPLORATION
 from skillwrapper.evaluation.methods.random_exploration import RANDOM_EXPLORATION
-from skillwrapper.evaluation.methods.skillwrapper import OURS, OURS_ONCE_A_SCENE, OURS_PAPER_BUDGET
+from skillwrapper.evaluation.methods.skillwrapper import (
+    OURS,
+    OURS_OFTEN_RESET,
+    OURS_ONCE_A_SCENE,
+    OURS_PAPER_BUDGET,
+)
 from skillwrapper.evaluation.methods.system import SYSTEM, SYSTEM_ABSENCE
 from skillwrapper.evaluation.methods.vila import VILA
 
@@ -26,6 +31,7 @@ _ALL: tuple[Method, ...] = (
     NO_HEURISTIC,
     PAPER_EXPLORATION,
     OURS_ONCE_A_SCENE,
+    OURS_OFTEN_RESET,
     OURS_PAPER_BUDGET,
     OURS,
 )

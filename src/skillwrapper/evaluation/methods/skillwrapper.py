@@ -17,11 +17,11 @@ PAPER_SCENES: Final = 3
 OURS: Final = LearnedMethod("ours", "SkillWrapper (ours)", WHOLE_METHOD)
 
 
-def _iterations(count: int) -> Callable[[RunSettings], RunSettings]:
-    """Settings with so many iterations of the paper's budget."""
+def _iterations(count: int, budget: int = PAPER_BUDGET) -> Callable[[RunSettings], RunSettings]:
+    """Settings with so many iterations of so many executions."""
 
     def change(config: RunSettings) -> RunSettings:
-        exploration = config.exploration.model_copy(update={"budget": PAPER_BUDGET})
+        exploration = config.exploration.model_copy(update={"budget": budget})
         return config.model_copy(update={"iterations": count, "exploration": exploration})
 
     return change
@@ -33,3 +33,7 @@ OURS_PAPER_BUDGET: Final = LearnedMethod(
 OURS_ONCE_A_SCENE: Final = LearnedMethod(
     "ours-3x15", "SkillWrapper, 3 x 15", WHOLE_METHOD, _iterations(PAPER_SCENES)
 )
+OURS_OFTEN_RESET: Final = LearnedMethod(
+    "ours-15x5", "SkillWrapper, 15 x 5", WHOLE_METHOD, _iterations(15, budget=5)
+)
+"""The paper's number of executions, with three times its resets: for worlds with dead ends."""
