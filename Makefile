@@ -43,6 +43,10 @@ demo-robots: setup setup-sim
 	$(BIN)/skillwrapper verify $(ROBOTS_DIR)/panda
 	$(BIN)/skillwrapper render panda --state examples/panda/finished.yaml --seed 7 --out $(ROBOTS_DIR)/panda/goal.png
 	$(BIN)/skillwrapper solve $(ROBOTS_DIR)/panda --init-seed 77 --goal $(ROBOTS_DIR)/panda/goal.png --video $(ROBOTS_DIR)/panda/solve.webp
+	$(BIN)/skillwrapper learn kuka --out $(ROBOTS_DIR)/kuka --seed $(ROBOTS_SEED) --iterations 15 --budget 5 --threshold 0.5
+	$(BIN)/skillwrapper verify $(ROBOTS_DIR)/kuka
+	$(BIN)/skillwrapper render kuka --state examples/kuka/finished.yaml --seed 7 --out $(ROBOTS_DIR)/kuka/goal.png
+	$(BIN)/skillwrapper solve $(ROBOTS_DIR)/kuka --init-seed 77 --goal $(ROBOTS_DIR)/kuka/goal.png --video $(ROBOTS_DIR)/kuka/solve.webp
 
 docs: setup
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict

@@ -48,7 +48,7 @@ def test_cells_of_a_file(file: Path) -> None:
     assert experiment.source_of(Cell("expert", "burger", 1, "gpt5")) is None
 
 
-@pytest.mark.parametrize("name", ["table1", "exploration", "noise", "smoke"])
+@pytest.mark.parametrize("name", ["table1", "exploration", "noise", "smoke", "data_efficiency"])
 def test_shipped_experiments(name: str) -> None:
     experiment = read_experiment(SHIPPED / f"{name}.yaml")
     assert experiment.name == name

@@ -45,5 +45,5 @@ def _differences(before: dict, after: dict) -> dict[str, tuple[object, object]]:
 
 def test_registry() -> None:
     assert [method.name for method in METHODS.values()] == list(METHODS)
-    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 12
+    assert len({method.title for method in METHODS.values()}) == len(METHODS) == 13
     assert all(m.source is None or m.source in METHODS for m in METHODS.values())

@@ -109,7 +109,7 @@ def read_kuka_scene(png: bytes) -> SceneGraph:
         raise PictureError("expected a picture of the table with two arms, found no such table")
     view = _View(seen, camera)
     things = [
-        Thing(ROBOT, "robot", Box(0, 0, WIDTH, HEIGHT)),
+        Thing(ROBOT, "robot", Box(0, 3 * HEIGHT // 4, WIDTH, HEIGHT)),
         Thing(HOLDER, "holder", _box(seen[HOLDER]), scenery=True),
     ]
     relations: dict[str, set[tuple[str, str]]] = {"held": set(), "in": set()}
