@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -94,3 +96,18 @@ def test_runs_that_differ(folder: Path, capsys: pytest.CaptureFixture[str]) -> N
     back = json.loads(capsys.readouterr().out)
     turned = sorted(line.translate(str.maketrans("+-", "-+", "")) for line in back["evidence"])
     assert turned == sorted(found["evidence"])
+
+
+def test_words_that_mean_the_same_are_matched(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The same run, with one predicate under another name."""
+    run = Path(shutil.copytree(folder / "run", tmp_path / "renamed"))
+    latest = RunArchive.open(run).latest()
+    old = min(literal.atom.predicate for literal in latest.model.operators[0].preconditions)
+    for file in (latest.folder / "model.json", latest.folder / "truth_table.csv"):
+        file.write_text(re.sub(rf"\b{old}\b", "otherwise", file.read_text()))
+    assert command("diff", folder / "run", run, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert any("otherwise(" in line and "is the same as" in line for line in found["vocabulary"])
+    assert found["operators"] == found["evidence"] == []

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.archive.archive import ArchivedIteration
-from skillwrapper.symbols import Operator, Predicate
+from skillwrapper.runs.synonyms import Synonym, find_synonyms
+from skillwrapper.symbols import Literal, Operator, Predicate
 from skillwrapper.symbols.describe import describe_predicate
 from skillwrapper.world.episode import Episode
 
@@ -99,8 +100,12 @@ def compare(first: RunArchive, second: RunArchive) -> Difference:
         UserError: if one has no finished iteration, or a file is damaged.
     """
     one, other = Side.of(first), Side.of(second)
+    synonyms = find_synonyms(one.latest, other.latest)
+    words = {synonym.second.name: synonym for synonym in synonyms}
     return Difference(
-        tuple(_vocabulary(one, other)), tuple(_operators(one, other)), tuple(_evidence(one, other))
+        (*_vocabulary(one, other), *(f"  {synonym}" for synonym in synonyms)),
+        tuple(_operators(one, other, words)),
+        tuple(_evidence(one, other)),
     )
 
 
@@ -117,7 +122,7 @@ def _only(sign: str, predicate: Predicate | None) -> Iterator[str]:
         yield f"{sign} {describe_predicate(predicate)}"
 
 
-def _operators(one: Side, other: Side) -> Iterator[str]:
+def _operators(one: Side, other: Side, words: Mapping[str, Synonym]) -> Iterator[str]:
     skills = [*one.latest.domain.skill_by_name, *other.latest.domain.skill_by_name]
     for skill in dict.fromkeys(skills):
         left = list(other.of_skill(skill))
@@ -125,9 +130,9 @@ def _operators(one: Side, other: Side) -> Iterator[str]:
             if not left:
                 yield from _whole("-", operator)
                 continue
-            partner = min(left, key=lambda o: len(_different(operator, o)))
+            partner = min(left, key=lambda o: len(_different(operator, o, words)))
             left.remove(partner)
-            changes = _different(operator, partner)
+            changes = _different(operator, partner, words)
             if changes:
                 yield f"  {operator.name} / {partner.name}"
                 yield from changes
@@ -141,14 +146,16 @@ def _whole(sign: str, operator: Operator) -> Iterator[str]:
     yield from (f"{sign}   {line}" for line in sorted(_lines(operator, names)))
 
 
-def _different(operator: Operator, other: Operator) -> tuple[str, ...]:
+def _different(
+    operator: Operator, other: Operator, words: Mapping[str, Synonym]
+) -> tuple[str, ...]:
     """The lines in which two operators of a skill differ, in the names of the first one."""
     own = [v.name for v in operator.parameters]
     ours = _lines(operator, own)
     spare = [*own[operator.arity :], *(f"?new_{n}" for n in range(len(other.context)))]
     orders = itertools.permutations(spare, len(other.context))
     readings = (
-        _lines(other, [*own[: operator.arity], *order])
+        _lines(other, [*own[: operator.arity], *order], words)
         for order in itertools.islice(orders, _MOST_ORDERS)
     )
     theirs = min(readings, key=lambda lines: len(lines ^ ours))
@@ -156,23 +163,38 @@ def _different(operator: Operator, other: Operator) -> tuple[str, ...]:
     return (*gone, *(f"+   {line}" for line in sorted(theirs - ours)))
 
 
-def _lines(operator: Operator, names: Sequence[str]) -> frozenset[str]:
-    """All that an operator says, with other names for its parameters."""
+def _lines(
+    operator: Operator, names: Sequence[str], words: Mapping[str, Synonym] | None = None
+) -> frozenset[str]:
+    """All that an operator says, with other names for its parameters and for predicates."""
     to = dict(zip((v.name for v in operator.parameters), names, strict=True))
+
+    def said(literal: Literal) -> Literal:
+        return _in_words(literal.substitute(to), words or {})
+
+    changed = [Literal(atom) for atom in operator.add_effects]
+    changed += [Literal(atom, False) for atom in operator.delete_effects]
     lines = [f"{to[v.name]} is {' and '.join(v.types)}" for v in operator.parameters]
-    lines += [f"needs {literal.substitute(to)}" for literal in operator.preconditions]
-    lines += [
-        f"needs no other {', '.join(a.quantified)}: {a.atom.substitute(to)}"
-        for a in operator.absences
-    ]
-    lines += [f"makes true {atom.substitute(to)}" for atom in operator.add_effects]
-    lines += [f"makes false {atom.substitute(to)}" for atom in operator.delete_effects]
+    lines += [f"needs {said(literal)}" for literal in operator.preconditions]
+    lines += [f"makes {said(literal)}" for literal in changed]
+    for absence in operator.absences:
+        # That no other is in the opposite relation is no absence of the relation.
+        absent = said(Literal(absence.atom))
+        atom = absent.atom if absent.positive else absence.atom.substitute(to)
+        lines.append(f"needs no other {', '.join(absence.quantified)}: {atom}")
     for effect in operator.conditional_effects:
-        when = " and ".join(sorted(str(c.substitute(to)) for c in effect.condition)) or "always"
-        lines.append(
-            f"changes every other {effect.quantified} with {when}: {effect.effect.substitute(to)}"
-        )
+        when = " and ".join(sorted(str(said(c)) for c in effect.condition)) or "always"
+        lines.append(f"changes every other {effect.quantified} with {when}: {said(effect.effect)}")
     return frozenset(lines)
+
+
+def _in_words(literal: Literal, words: Mapping[str, Synonym]) -> Literal:
+    """A literal in the words of the first run."""
+    synonym = words.get(literal.atom.predicate)
+    if synonym is None:
+        return literal
+    atom = replace(literal.atom, predicate=synonym.first.name)
+    return Literal(atom, literal.positive is synonym.same)
 
 
 def _evidence(one: Side, other: Side) -> Iterator[str]:
