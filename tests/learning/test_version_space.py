@@ -15,13 +15,13 @@ from barn import (
     ON_NOTHING,
     barn,
 )
-from notebook import Notebook, instance
+from notebook import Notebook, atom, instance
 
 from skillwrapper.grounding import AtomSpace
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.learning.version_space import Prior, VersionSpace, version_spaces
-from skillwrapper.symbols import Variable
+from skillwrapper.symbols import Literal, Predicate, Variable
 
 EVERYTHING = {EMPTY_HAND, NOT_HELD, NOTHING_ATOP, ON_NOTHING}
 TELLING = "on(b, f) on(f, b) full(h)"
@@ -134,3 +134,16 @@ def test_of_many_conditions_hypotheses_are_drawn_and_certain_ones_kept() -> None
     for condition in EVERYTHING:
         likely = enumerated.probability[condition]
         assert drawn.probability[condition] == pytest.approx(likely, abs=0.05)
+
+
+def test_types_that_a_literal_implies_are_no_more_needed_than_the_literal() -> None:
+    """That only frail crates can be whole does not say that only frail crates are lifted."""
+    whole = Predicate("whole", ("frail",))
+    notebook = Notebook(BARN, FULL, whole)
+    notebook.success("whole(f)", "Lift(h, f)", "full(h) whole(f)")
+    notebook.failure("full(h)", "Lift(h, f)")
+    found = space(notebook)
+    conditions = Variable("?crate_1", ("frail",)), Literal(atom("whole(?crate_1)"))
+    assert found.open.issuperset(conditions)
+    neither = np.prod([1 - found.probability[condition] for condition in conditions])
+    assert success(found, notebook, "", "Lift(h, a)") == pytest.approx(neither)

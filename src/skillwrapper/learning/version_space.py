@@ -8,7 +8,7 @@ weighed by how likely conditions of their kind are needed, says what a try would
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -27,6 +27,7 @@ from skillwrapper.learning.untested import narrowed_types
 from skillwrapper.symbols import Absence, Literal, Operator, Variable
 from skillwrapper.symbols.describe import describe_condition
 from skillwrapper.symbols.operators import Condition
+from skillwrapper.world.domain import Domain
 
 _ENUMERATED = 12
 """All parts of so many conditions are hypotheses; of more, some are drawn."""
@@ -197,7 +198,7 @@ class _Evidence:
     @classmethod
     def of(cls, fit: Fit, learned: LearnedOperator, of_skill: SkillFit) -> _Evidence:
         signatures = {p.name: p.types for p in fit.predicates}
-        narrowed = frozenset(narrowed_types(fit.domain, signatures, learned.operator))
+        narrowed = frozenset(_doubtful_types(fit.domain, signatures, learned.operator))
         scenes: list[UnmetConditions] = []
         failures: list[UnmetConditions] = []
         conditions: tuple[Condition, ...] = ()
@@ -254,6 +255,20 @@ class _Evidence:
             sets = unmet.sets[single]
             found |= sets[sets.sum(axis=1) == 1].any(axis=0)
         return found
+
+
+def _doubtful_types(
+    domain: Domain, signatures: Mapping[str, tuple[str, ...]], operator: Operator
+) -> Iterator[Variable]:
+    """The parameters that may stand for objects of other types as well.
+
+    Also those of the skill's own whose types a literal implies, as it may not be needed either.
+    """
+    yield from narrowed_types(domain, signatures, operator)
+    skill = domain.skill_by_name[operator.skill]
+    for variable, parameter in zip(operator.parameters, skill.parameters, strict=False):
+        if not domain.types.closure([parameter.type]).issuperset(variable.types):
+            yield variable
 
 
 def _pooled(prior: Prior, alone: Sequence[VersionSpace], number: int) -> list[float]:
