@@ -149,7 +149,9 @@ class Inventor:
         """Resolve one inconsistency after the other; where an episode ends, unnoticed changes too.
 
         A predicate that splits the data into more operators than it explains transitions is
-        taken back, once in a call, and what it explained is asked for again.
+        taken back, once in a call, and what it explained is asked for again. Where something is
+        left inconsistent, it may be one that resolved an inconsistency: a likeness of what is
+        meant keeps that out.
         """
         retracted: set[Predicate] = set()
         while self._rounds_left and self._trials_left > 0:
@@ -163,7 +165,7 @@ class Inventor:
                 self._fitter,
                 self._vocabulary,
                 retracted,
-                keeps_consistent=self._settings.spare_retraction,
+                keeps_consistent=self._settings.spare_retraction and not fit.witnesses,
             )
             if not burdens:
                 break
