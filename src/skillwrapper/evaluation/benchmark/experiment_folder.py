@@ -185,14 +185,14 @@ class ExperimentFolder:
         if differing:
             key = differing[0]
             raise RunFolderError(
-                f"{self.path} holds another experiment ({key}: {mine[key]!r} there, "
+                f"{self.path / _EXPERIMENT} holds another experiment ({key}: {mine[key]!r} there, "
                 f"{theirs[key]!r} now); choose another --out"
             )
         for name, problems in sets.items():
             if self.problem_file(name).exists() and self.problems(name) != problems:
                 raise RunFolderError(
-                    f"{self.path} holds another experiment (other problems of {name}); "
-                    "choose another --out"
+                    f"{self.problem_file(name)} is of another experiment (other problems of "
+                    f"{name}); choose another --out"
                 )
 
 
