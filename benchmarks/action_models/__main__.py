@@ -93,6 +93,7 @@ def _measure(
     learner: str, domain: str, true: Strips, tests: Sequence[TestState], solver: Solver | None
 ) -> Row:
     path, traces = gym.domain_path(domain), gym.trace_paths(domain)
+    gym.load(learner)
     started = time.process_time()
     text = gym.learn(learner, path, traces)
     spent = time.process_time() - started
