@@ -161,17 +161,22 @@ class Inventor:
             if inconsistency is not None:
                 self._resolve(inconsistency, fit)
                 continue
-            burdens = find_burdens(
-                self._fitter,
-                self._vocabulary,
-                retracted,
-                keeps_consistent=self._settings.spare_retraction and not fit.witnesses,
-            )
+            burdens = self._burdens(fit, retracted)
             if not burdens:
                 break
             retracted.update(burdens)
             self._retract(burdens)
         return self._fitter.fit(self._vocabulary.active)
+
+    def _burdens(self, fit: Fit, spared: set[Predicate]) -> tuple[Predicate, ...]:
+        """What takes more than it explains; names of changes only where all is consistent."""
+        changes = {p for p in self._vocabulary.active if p.name in self._vocabulary.changes}
+        return find_burdens(
+            self._fitter,
+            self._vocabulary,
+            spared | changes if fit.witnesses else spared,
+            keeps_consistent=self._settings.spare_retraction and not fit.witnesses,
+        )
 
     def _keep_best(self, fit: Fit) -> Fit:
         """Take the vocabulary of the last iteration up again if it leaves less inconsistent.
