@@ -119,7 +119,8 @@ def test_folder_refuses_another_experiment(
 ) -> None:
     file.write_text(SMALL.replace(old, new))
     before = _contents(folder.path)
-    with pytest.raises(RunFolderError, match=rf"experiment.yaml holds another .*{what}"):
+    said = rf"experiment\.yaml holds another experiment \({what}.*choose another"
+    with pytest.raises(RunFolderError, match=said):
         ExperimentFolder.create_or_resume(folder.path, read_experiment(file))
     assert _contents(folder.path) == before
 

@@ -80,7 +80,7 @@ class Processes:
         latest = time.monotonic() + _GRACE
         for child in children:
             child.join(max(0.0, latest - time.monotonic()))
-        for child in children:
+        for child in multiprocessing.active_children():  # also one that began meanwhile
             child.kill()
             child.join()
 
