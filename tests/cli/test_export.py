@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 from command_line import command
+from cubes import learn_cubes
 
-from skillwrapper.domains.starting import start_project
 from skillwrapper.errors import UnknownNameError
-from skillwrapper.runs.launch import learn
 from skillwrapper.runs.learned_model import LearnedModel
 from skillwrapper.world import SkillInstance
 
@@ -20,11 +19,7 @@ from skillwrapper.world import SkillInstance
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A short run in the world of a new project."""
-    folder = tmp_path_factory.mktemp("exported")
-    start_project(folder / "cubes")
-    settings = {"domain": str(folder / "cubes"), "iterations": 3, "exploration.budget": 12}
-    learn(settings, folder / "run")
-    return folder / "run"
+    return learn_cubes(tmp_path_factory.mktemp("exported"))
 
 
 def picture(run: Path) -> Path:

@@ -4,20 +4,15 @@ import shutil
 from pathlib import Path
 
 import pytest
+from cubes import learn_cubes
 
-from skillwrapper.domains.starting import start_project
 from skillwrapper.runs.archive import RunArchive
-from skillwrapper.runs.launch import learn
 
 
 @pytest.fixture(scope="session")
 def learned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A short run in the world of a new project."""
-    folder = tmp_path_factory.mktemp("reviewed")
-    start_project(folder / "cubes")
-    settings = {"domain": str(folder / "cubes"), "iterations": 3, "exploration.budget": 12}
-    learn(settings, folder / "run")
-    return folder / "run"
+    return learn_cubes(tmp_path_factory.mktemp("reviewed"))
 
 
 @pytest.fixture

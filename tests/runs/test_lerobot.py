@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cubes import EPISODES, play
 from PIL import Image
 
 from skillwrapper.domains.discovery import find_domain
@@ -25,8 +26,6 @@ pa = pytest.importorskip("pyarrow", reason="the extra lerobot is not installed")
 av = pytest.importorskip("av", reason="the extra lerobot is not installed")
 parquet = pytest.importorskip("pyarrow.parquet")
 
-SKILLS = ("Open(arm, box)", "Open(arm, box)", "Pick(arm, red_cube)", "PutIn(arm, red_cube, box)")
-EPISODES = (SKILLS, ("Pick(arm, green_cube)", "PutIn(arm, green_cube, box)", "Close(arm, box)"))
 CAMERA = "observation.images.top"
 
 
@@ -35,18 +34,6 @@ def cubes(tmp_path_factory: pytest.TempPathFactory) -> DomainPackage:
     folder = tmp_path_factory.mktemp("lerobot") / "cubes"
     start_project(folder)
     return find_domain(str(folder))
-
-
-def play(package: DomainPackage, skills: tuple[str, ...]) -> tuple[list[Observation], list[bool]]:
-    """Pictures before, between and after the skills, and whether they succeeded."""
-    environment = package.make_environment()
-    seen, successes = [environment.reset(seed=0)], []
-    instances = {str(i): i for i in package.domain.skill_instances}
-    for skill in skills:
-        outcome = environment.execute(instances[skill])
-        seen.append(outcome.observation)
-        successes.append(outcome.success)
-    return seen, successes
 
 
 def png(observation: Observation) -> bytes:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cubes import EPISODES, play
 
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.package import DomainPackage
@@ -21,26 +22,11 @@ from skillwrapper.world.pictures import load_picture
 
 h5py = pytest.importorskip("h5py", reason="the extra minari is not installed")
 
-SKILLS = ("Open(arm, box)", "Open(arm, box)", "Pick(arm, red_cube)", "PutIn(arm, red_cube, box)")
-EPISODES = (SKILLS, ("Pick(arm, green_cube)", "PutIn(arm, green_cube, box)", "Close(arm, box)"))
-
 
 @pytest.fixture
 def cubes(tmp_path: Path) -> DomainPackage:
     start_project(tmp_path / "cubes")
     return find_domain(str(tmp_path / "cubes"))
-
-
-def play(package: DomainPackage, skills: tuple[str, ...]) -> tuple[list[Any], list[bool]]:
-    """Pictures before, between and after the skills, and whether they succeeded."""
-    environment = package.make_environment()
-    seen, successes = [environment.reset(seed=0)], []
-    instances = {str(i): i for i in package.domain.skill_instances}
-    for skill in skills:
-        outcome = environment.execute(instances[skill])
-        seen.append(outcome.observation)
-        successes.append(outcome.success)
-    return seen, successes
 
 
 def pixels(folder: Path, observation: Any) -> Any:

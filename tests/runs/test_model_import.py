@@ -9,14 +9,13 @@ from pathlib import Path
 import pytest
 from benchmarks.kills import contents
 from command_line import command
+from cubes import learn_cubes
 
 from skillwrapper.domains.burger.expert import expert_model
-from skillwrapper.domains.starting import start_project
 from skillwrapper.errors import RefusedModelError, UserError
 from skillwrapper.learning.untested import find_tests
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.edited_domain import read_edited_domain
-from skillwrapper.runs.launch import learn
 from skillwrapper.runs.model_import import import_model
 from skillwrapper.runs.recollection import Recollection
 from skillwrapper.symbols import AbstractModel, Atom, ConditionalEffect, Literal, Variable
@@ -26,11 +25,7 @@ from skillwrapper.symbols.pddl import print_domain
 
 @pytest.fixture(scope="module")
 def learned(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("edited")
-    start_project(folder / "cubes")
-    settings = {"domain": str(folder / "cubes"), "iterations": 3, "exploration.budget": 12}
-    learn(settings, folder / "run")
-    return folder / "run"
+    return learn_cubes(tmp_path_factory.mktemp("edited"))
 
 
 @pytest.fixture
