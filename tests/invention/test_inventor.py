@@ -555,6 +555,7 @@ def test_without_exchanges_the_model_is_asked() -> None:
     study = Study(likeness(), active=[HELD, LARGE], dormant=[EMPTY], exchange=False)
     study.inventor.invent()
     assert study.proposer.asked
+    assert study.verdicts(Verdict.RETRACTED, Verdict.REVIVED) == ["large", "empty"]
 
 
 def test_what_else_changed_is_rather_asked_where_other_things_hold() -> None:
