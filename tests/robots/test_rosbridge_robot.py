@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import sys
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -45,22 +46,36 @@ def server() -> Iterator[LampServer]:
         yield serving
 
 
-def robot(server: LampServer, odd: Any = LIGHT, limit: float = 20.0) -> RobotEnvironment:
-    skills = {"Light": LIGHT, "PutOut": PUT_OUT, "Odd": odd}
-    cameras = {"front": "/camera"}
-    connected = RosbridgeRobot.connect(
-        skills, cameras, port=server.port, prepare=RESET, limit=limit
-    )
-    return RobotEnvironment(connected, DOMAIN)
+class Robots:
+    """Connects to the server as often as it is asked, and leaves no connection behind."""
+
+    def __init__(self, server: LampServer) -> None:
+        self._server, self.made = server, list[RobotEnvironment]()
+
+    def __call__(self, odd: Any = LIGHT, limit: float = 20.0) -> RobotEnvironment:
+        skills = {"Light": LIGHT, "PutOut": PUT_OUT, "Odd": odd}
+        connected = RosbridgeRobot.connect(
+            skills, {"front": "/camera"}, port=self._server.port, prepare=RESET, limit=limit
+        )
+        self.made.append(RobotEnvironment(connected, DOMAIN))
+        return self.made[-1]
 
 
-def test_it_keeps_the_rules(server: LampServer) -> None:
-    assert check_environment(lambda: robot(server), steps=15) is Level.ROBOT
+@pytest.fixture
+def robot(server: LampServer) -> Iterator[Robots]:
+    robots = Robots(server)
+    yield robots
+    for made in robots.made:
+        made.close()
+
+
+def test_it_keeps_the_rules(server: LampServer, robot: Robots) -> None:
+    assert check_environment(robot, steps=15) is Level.ROBOT
     assert server.seeds[0][0] == 0
 
 
-def test_actions_services_and_cameras_tell_what_happens(server: LampServer) -> None:
-    environment = robot(server)
+def test_actions_services_and_cameras_tell_what_happens(server: LampServer, robot: Robots) -> None:
+    environment = robot()
     dark = environment.reset(seed=3)
     lit = environment.execute(instance("Light(hand, left)"))
     assert lit.success
@@ -75,7 +90,20 @@ def test_actions_services_and_cameras_tell_what_happens(server: LampServer) -> N
     server.encoding = "yuv422"
     with pytest.raises(RobotError, match=r"camera front: topic /camera .*'yuv422'"):
         environment.observe()
+
+
+def test_nobody_looks_for_a_lost_connection_once_it_is_closed(robot: Robots) -> None:
+    environment = robot(odd=RosService("/die", "x/srv/X"))
+    environment.reset(seed=0)
+    connection = environment._robot._ros.factory
+    with pytest.raises(RobotError, match="the connection was lost"):
+        environment.execute(instance("Odd(hand, left)"))
     environment.close()
+    deadline = time.monotonic() + 10
+    while connection.continueTrying:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    assert not connection.is_connected
 
 
 @pytest.mark.parametrize(
@@ -88,8 +116,10 @@ def test_actions_services_and_cameras_tell_what_happens(server: LampServer) -> N
         (RosService("/die", "x/srv/X"), "service /die: expected an answer, but the connection"),
     ],
 )
-def test_whatever_goes_wrong_is_named(server: LampServer, skill: Any, words: str) -> None:
-    environment = robot(server, odd=skill, limit=0.5 if "silent" in skill.name else 20.0)
+def test_whatever_goes_wrong_is_named(
+    server: LampServer, robot: Robots, skill: Any, words: str
+) -> None:
+    environment = robot(odd=skill, limit=0.5 if "silent" in skill.name else 20.0)
     environment.reset(seed=0)
     with pytest.raises(RobotError, match=rf"Odd\(hand, left\): {words}"):
         environment.execute(instance("Odd(hand, left)"))
@@ -98,9 +128,9 @@ def test_whatever_goes_wrong_is_named(server: LampServer, skill: Any, words: str
         assert server.cancelled == 1
 
 
-def test_a_start_that_fails_and_a_server_that_is_not_there(server: LampServer) -> None:
+def test_a_start_that_fails_and_a_server_that_is_not_there(robot: Robots) -> None:
     with pytest.raises(RobotError, match=r"prepare\(-1, .*\): it failed"):
-        robot(server).reset(seed=-1)
+        robot().reset(seed=-1)
     with pytest.raises(RobotError, match=r"127\.0\.0\.1:1: expected a connection within 0.3 s"):
         RosbridgeRobot.connect({}, {}, port=1, connecting=0.3)
 

@@ -94,6 +94,12 @@ class _Reply:
         self.came.set()
 
 
+def _leave(ros: Any) -> None:
+    """End a connection, or the tries to get one: roslibpy would go on with them for good."""
+    ros.factory.manager.call_later(0, ros.factory.stopTrying)  # timers belong to its own thread
+    ros.close()
+
+
 class RosbridgeRobot(Robot):
     """Speaks to a rosbridge server.
 
@@ -145,7 +151,7 @@ class RosbridgeRobot(Robot):
         try:
             ros.run(connecting)
         except Exception as error:
-            getattr(ros.factory, "stopTrying", lambda: None)()
+            _leave(ros)
             raise RobotError(
                 f"rosbridge at {host}:{port}: expected a connection within {connecting:g} s, got "
                 "none; start it with: ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
@@ -184,8 +190,8 @@ class RosbridgeRobot(Robot):
         return self._call(self._skills[skill], f"{skill}({', '.join(arguments)})", *arguments)
 
     def stop(self) -> None:
-        """Close the connection."""
-        self._ros.close()
+        """Close the connection, and look for no other where it was lost."""
+        _leave(self._ros)
 
     def _call(self, skill: RosSkill, what: str, *arguments: Any) -> Verdict:
         if isinstance(skill, RosService):
