@@ -122,6 +122,8 @@ def test_lines_that_do_not_fit_are_named(tmp_path: Path) -> None:
         ("a: 1\nb: !!int six\n", r":2: .*expected a value of the kind int"),
         ('a: 1\nb: "\\ud800"\n', r":2: .*got half a character"),
         ("a: [1\n", r":2: expected valid YAML"),
+        ("a: 1\nb: a\0b\n", r":2: expected valid YAML \(got '\\x00'\)"),
+        ("a: 1\nb: a\x1b[31m\n", r":2: expected valid YAML \(got '\\x1b'\)"),
     ],
 )
 def test_yaml_that_says_two_things_or_none(tmp_path: Path, text: str, message: str) -> None:
@@ -129,6 +131,20 @@ def test_yaml_that_says_two_things_or_none(tmp_path: Path, text: str, message: s
     path.write_text(text)
     with pytest.raises(ConfigurationError, match=message):
         YamlDocument.read(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "latin-1"])
+def test_yaml_in_another_encoding(tmp_path: Path, encoding: str) -> None:
+    path = tmp_path / "file.yaml"
+    path.write_bytes("a: 1\nb: é\n".encode(encoding))
+    line = 1 if encoding == "utf-16" else 2
+    with pytest.raises(ConfigurationError, match=rf"file\.yaml:{line}: expected UTF-8 text"):
+        YamlDocument.read(path)
+
+
+def test_yaml_with_a_mark_of_its_byte_order(tmp_path: Path) -> None:
+    (tmp_path / "file.yaml").write_text("a: 1\n", encoding="utf-8-sig")
+    assert YamlDocument.read(tmp_path / "file.yaml").data == {"a": 1}
 
 
 def test_a_file_that_was_named_by_mistake_is_not_shown(tmp_path: Path) -> None:

@@ -34,6 +34,17 @@ _EXPECTED: Mapping[str, str] = MappingProxyType(
 )
 """Kinds of mistakes that pydantic words for programmers."""
 
+_LENGTHS: Mapping[str, str] = MappingProxyType(
+    {
+        "too_short": "at least {min_length} of them",
+        "too_long": "at most {max_length} of them",
+        "string_too_short": "at least {min_length} characters",
+        "string_too_long": "at most {max_length} characters",
+        "string_pattern_mismatch": "text of the form {pattern}",
+    }
+)
+"""The same, with what pydantic tells beside."""
+
 _KINDS: Mapping[type, str] = MappingProxyType({str: "text", list: "a list", type(None): "nothing"})
 
 
@@ -67,7 +78,8 @@ def first_mistake(error: ValidationError, model: type[BaseModel]) -> Mistake:
     # What a whole file holds is not shown: it may be a file that was named by mistake.
     given = first.get("input")
     got = shorten(repr(given)) if location else _KINDS.get(type(given), type(given).__name__)
-    return Mistake(location, f"'{name}': {_expected(first['type'], first['msg'])}, got {got}")
+    expected = _expected(first["type"], first["msg"], first.get("ctx", {}))
+    return Mistake(location, f"'{name}': {expected}, got {got}")
 
 
 def _printable(text: str) -> str:
@@ -99,9 +111,11 @@ def models_in(annotation: Any) -> list[type[BaseModel]]:
     return [model for argument in arguments for model in models_in(argument)]
 
 
-def _expected(kind: str, message: str) -> str:
+def _expected(kind: str, message: str, context: Mapping[str, Any]) -> str:
     if kind in _EXPECTED:
         return _EXPECTED[kind]
+    if kind in _LENGTHS:
+        return f"expected {_LENGTHS[kind].format(**context)}"
     if message.startswith("Input should be "):
         return "expected " + message.removeprefix("Input should be ")
     return message.removeprefix("Value error, ")

@@ -47,12 +47,10 @@ class YamlDocument:
                 content = file.read(_MOST_BYTES + 1)
             if len(content) > _MOST_BYTES:
                 raise ConfigurationError(f"{path}: expected at most {_MOST_BYTES} bytes, got more")
-            data, root = _load(content.decode("utf-8"))
+            data, root = _load(_text(content, path))
             return cls(path, data, root)
         except OSError as error:
             raise ConfigurationError(f"{path}: cannot be read ({error.strerror})") from error
-        except UnicodeDecodeError as error:
-            raise ConfigurationError(f"{path}: expected UTF-8 text") from error
         except RecursionError as error:
             raise ConfigurationError(f"{path}: expected fewer levels of nesting") from error
         except yaml.YAMLError as error:
@@ -97,6 +95,23 @@ def parse_value(text: str, where: str) -> Any:
         return yaml.load(text, Loader=_Loader)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         raise ConfigurationError(f"{where}: expected a value as in YAML, got '{text}'") from error
+
+
+def _text(content: bytes, path: Path) -> str:
+    """The text of a file.
+
+    Raises:
+        ConfigurationError: for what no text in UTF-8 holds, with its line.
+    """
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise ConfigurationError(f"{path}:{line}: expected UTF-8 text") from error
+    if found := yaml.reader.Reader.NON_PRINTABLE.search(text):
+        line = text.count("\n", 0, found.start()) + 1
+        raise ConfigurationError(f"{path}:{line}: expected valid YAML (got {found[0]!r})")
+    return text
 
 
 def _load(text: str) -> tuple[Any, yaml.Node | None]:

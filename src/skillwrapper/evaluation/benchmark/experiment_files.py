@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Hashable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
@@ -10,7 +10,11 @@ from typing import Any, Final
 from skillwrapper.domains.discovery import domain_names, find_domain
 from skillwrapper.embedded.noise import noise_profile, profile_names
 from skillwrapper.errors import ConfigurationError, UnknownNameError, UserError
-from skillwrapper.evaluation.benchmark.experiments import Experiment, ProblemChoice
+from skillwrapper.evaluation.benchmark.experiments import (
+    MOST_CELLS,
+    Experiment,
+    ProblemChoice,
+)
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.methods.settings import ExperimentSettings
 from skillwrapper.evaluation.problems.problem_files import read_problem_document
@@ -44,6 +48,7 @@ def read_experiment(
     _check_names(document, "methods", "method", experiment.methods, METHODS)
     for key in ("methods", "domains", "seeds", "noise"):
         _check_different(document, key, getattr(experiment, key))
+    _check_size(document, experiment)
     for number, name in enumerate(experiment.noise):
         try:
             noise_profile(name)
@@ -129,11 +134,21 @@ def _found_domains(document: YamlDocument, experiment: Experiment) -> tuple[str,
     return tuple(found)
 
 
-def _check_different(document: YamlDocument, key: str, values: tuple[object, ...]) -> None:
+def _check_different(document: YamlDocument, key: str, values: tuple[Hashable, ...]) -> None:
+    seen: set[Hashable] = set()
     for number, value in enumerate(values):
-        if value in values[:number]:
+        if value in seen:
             where = document.place((key, number))
             raise ConfigurationError(f"{where}: expected different {key}, got {value!r} twice")
+        seen.add(value)
+
+
+def _check_size(document: YamlDocument, experiment: Experiment) -> None:
+    if experiment.cell_count > MOST_CELLS:
+        raise ConfigurationError(
+            f"{document.place(('seeds',))}: expected at most {MOST_CELLS} cells (methods x domains "
+            f"x seeds x noise), got {experiment.cell_count}; divide the experiment"
+        )
 
 
 def _check_sources(document: YamlDocument, experiment: Experiment) -> None:

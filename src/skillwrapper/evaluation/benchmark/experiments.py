@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any, Final
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
@@ -12,6 +12,12 @@ from skillwrapper.domains.discovery import plain_names
 from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.methods.settings import ExperimentSettings
+
+MOST_SEEDS: Final = 1_000
+MOST_CELLS: Final = 10_000
+"""More are a slip of the pen: each cell is a run, with a folder of its own."""
+
+_Seed = Annotated[int, Field(ge=0, strict=True)]
 
 
 class ProblemChoice(BaseModel):
@@ -40,7 +46,7 @@ class Experiment(BaseModel):
         description: what it is to show.
         methods: names of methods, in any order.
         domains: references to domains; by default all bundled ones that need no extra.
-        seeds: every method runs once with each.
+        seeds: every method runs once with each; at most ``MOST_SEEDS``.
         noise: profiles of the embedded model (``none``, ``gpt5``), or rates from 0 to 1 with
             which every judgement errs.
         settings: what is equal in all cells.
@@ -53,7 +59,7 @@ class Experiment(BaseModel):
     description: str = ""
     methods: tuple[str, ...] = Field(min_length=1)
     domains: tuple[str, ...] = Field(default_factory=plain_names, min_length=1)
-    seeds: tuple[int, ...] = Field(default=(0,), min_length=1)
+    seeds: tuple[_Seed, ...] = Field(default=(0,), min_length=1, max_length=MOST_SEEDS)
     noise: tuple[str, ...] = Field(default=("none",), min_length=1)
     settings: ExperimentSettings = Field(default_factory=ExperimentSettings)
     problems: ProblemChoice = Field(default_factory=ProblemChoice)
@@ -65,6 +71,11 @@ class Experiment(BaseModel):
         if not isinstance(given, list | tuple):
             return given
         return [_noise_name(value) if isinstance(value, int | float) else value for value in given]
+
+    @property
+    def cell_count(self) -> int:
+        """How many cells there are."""
+        return len(self.noise) * len(self.domains) * len(self.seeds) * len(self.methods)
 
     @property
     def cells(self) -> tuple[Cell, ...]:
