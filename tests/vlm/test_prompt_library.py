@@ -90,6 +90,39 @@ HOSTILE = {
         1,
     ),
     "format": ("{{ '%999999999999d' % 1 }}", 1),
+    "filling": ("{{ 'x' | center(10 ** 10) }}", 1),
+    "filling by a method": ("\n{{ 'x'.ljust(10 ** 10) }}", 2),
+    "filling by a number": ("{{ (1).to_bytes(10 ** 10) }}", 1),
+    "tabs": ("{{ ('\t' * 1000).expandtabs(10 ** 9) }}", 1),
+    "format filter": ("{{ '%9999999999d' | format(1) }}", 1),
+    "format of a method": ("{{ '{:9999999999}'.format(1) }}", 1),
+    "format by another value": ("{{ '{:{}}'.format(1, 10 ** 10) }}", 1),
+    "replacing": ("{{ ('a' * 900000) | replace('a', 'b' * 900000) }}", 1),
+    "joining": ("{{ range(99999) | join('b' * 900000) }}", 1),
+    "joining an attribute": (
+        "{% set n = namespace(s='x' * 900000) %}{{ ([n] * 99999) | join('', attribute='s') }}",
+        1,
+    ),
+    "joining by a method": ("{{ ('b' * 900000).join(['x'] * 900000) }}", 1),
+    "indenting": ("{{ ('\\n' * 900000) | indent(900000) }}", 1),
+    "batches": ("{{ [1] | batch(10 ** 10, 'x') | list }}", 1),
+    "slices": ("{{ 'abc' | slice(10 ** 9) | list }}", 1),
+    "wrapping": ("{{ ('a ' * 900000) | wordwrap(1) }}", 1),
+    "links": ("{{ ('http://a.b/ ' * 100000) | urlize }}", 1),
+    "many filters": (
+        "{% for i in range(9999) %}{% set _ = ('x' * 99999) | upper %}{% endfor %}",
+        1,
+    ),
+    "a list of long texts": ("{{ ['x' * 900000] * 900000 }}", 1),
+    "lists in lists": (
+        "{% set n = namespace(l=[1]) %}"
+        "{% for i in range(60) %}{% set n.l = [n.l, n.l] %}{% endfor %}{{ n.l }}",
+        1,
+    ),
+    "ten thousand paragraphs": ("{{ lipsum(n=10 ** 6) }}", None),
+    "chance": ("{{ [1, 2] | random }}", 1),
+    "unknown filter": ("fine\n{{ domain | nonsense }}", 2),
+    "unknown test": ("fine\n{{ domain is nonsense }}", 2),
     "change": ("{% set _ = domain.objects.append(1) %}", 1),
 }
 
@@ -118,8 +151,16 @@ def test_ordinary_templates_are_not_kept_from_anything(tmp_path: Path, burger: D
     (tmp_path / "system.j2").write_text(
         "{% macro line(o) %}{{ o.name ~ ':' }}{% endmacro %}"
         "{% for o in domain.objects if o.types %}{{ loop.index + 1 }} {{ line(o) }} {% endfor %}"
-        "{{ '-' * 3 }} {{ domain.objects | map(attribute='name') | join(', ') | upper }}"
+        "{{ '-' * 3 }} {{ '%-3d|%s' | format(7, 'x') }} {{ '{:>3}'.format(7) }} "
+        "{{ ' a b '.strip().split() | join(',') }} "
+        "{{ domain.objects | map(attribute='name') | join(', ') | upper }}"
     )
     text = PromptLibrary(tmp_path).render(PromptKind.SYSTEM, domain=burger)
     assert text.startswith("2 robot: 3 lettuce: ")
+    assert " --- 7  |x   7 a,b " in text
     assert text.endswith("STOVE, BOARD")
+
+
+def test_half_characters_are_replaced(tmp_path: Path, burger: Domain) -> None:
+    (tmp_path / "system.j2").write_text("{{ '\\ud800' }}{{ '\\ud83e\\udd16' }}")
+    assert PromptLibrary(tmp_path).render(PromptKind.SYSTEM, domain=burger) == "\ufffd🤖"

@@ -95,7 +95,9 @@ class PromptLibrary:
     def _compile(self, kind: PromptKind) -> jinja2.Template:
         name = f"{kind}{_SUFFIX}"
         parsed, file = self._sandbox.source_of(name)
-        unknown = sorted(jinja2.meta.find_undeclared_variables(parsed) - PROMPT_VARIABLES[kind])
+        with self._sandbox.told(name):
+            used = jinja2.meta.find_undeclared_variables(parsed)
+        unknown = sorted(used - PROMPT_VARIABLES[kind])
         if unknown:
             raise ConfigurationError(
                 f"prompt template {file}: unknown variable '{unknown[0]}'; "

@@ -1,37 +1,46 @@
 """Templates that users write: they cannot run code, loop for ever, or grow without bound.
 
 Jinja's sandbox keeps templates from code. It bounds neither loops nor sizes, so every pass through
-a loop and every call of a macro counts here, and so does the size of what operators make.
+a loop and every call of a macro counts here, and so does the size of what operators and filters
+make. Filters and methods whose work does not follow from what they are given are not there.
 """
 
 from __future__ import annotations
 
+import math
 import traceback
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import wraps
 from pathlib import Path
+from types import BuiltinMethodType
 from typing import Any
 
 import jinja2
 from jinja2 import nodes
-from jinja2.exceptions import SecurityError
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.visitor import NodeTransformer
 
 from skillwrapper.errors import ConfigurationError
+from skillwrapper.vlm.template_bounds import (
+    FILTERS,
+    LONGEST_TEXT,
+    METHODS,
+    MULTIPLYING,
+    TooMuchError,
+    check_form,
+    extent,
+    size_made,
+    weight,
+)
 
-MOST_STEPS = 300_000
-"""Passes through loops and calls of macros, in one rendering."""
-LONGEST_TEXT = 2_000_000
-"""Characters of a rendered prompt, and of any text or list that an operator makes."""
+MOST_STEPS = 100_000
+"""Passes through loops, calls of macros, and hundreds of characters made, in one rendering."""
 _LARGEST_NUMBER = 10**30
+_SIZE_OF_A_STEP = 100
 _STEP, _JOINED = "_step", "_joined"
 _MISTAKES = "a mistake in it"
-
-
-class TooMuchError(SecurityError):
-    """A template that takes too many steps, or makes something too large."""
 
 
 class TemplateSandbox(ImmutableSandboxedEnvironment):
@@ -51,9 +60,12 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
             lstrip_blocks=True,
             autoescape=False,
             auto_reload=False,
+            finalize=self._bounded,
         )
         self._steps: ContextVar[list[int]] = ContextVar("steps")
+        del self.globals["lipsum"]
         self.globals |= {_STEP: self._count_step, _JOINED: self._join}
+        self.filters = {name: self._limited(name, self.filters[name]) for name in FILTERS}
 
     def source_of(self, name: str) -> tuple[nodes.Template, str]:
         """The parsed template of a name, and the file that it stands in.
@@ -82,7 +94,7 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
                     if size > LONGEST_TEXT:
                         raise TooMuchError(f"a prompt of more than {LONGEST_TEXT:,} characters")
                     parts.append(part)
-                return "".join(parts)
+                return _whole_characters("".join(parts))
         finally:
             self._steps.reset(token)
 
@@ -94,7 +106,8 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         except ConfigurationError:
             raise
         except jinja2.TemplateSyntaxError as error:
-            place = error.filename or error.name or name
+            places = [place for place in (error.filename, error.name) if place]
+            place = next((place for place in places if place.endswith(".j2")), name)
             raise _mistake(place, error.lineno, error.message or _MISTAKES) from error
         except jinja2.TemplateNotFound as error:
             said = f"there is no template '{error.name}' to include or import"
@@ -116,9 +129,47 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
             raise TooMuchError("a power that is too large")
         if operator == "%" and isinstance(left, str):
             raise TooMuchError("expected the filter 'format' in place of the operator %")
-        if operator in {"*", "+"} and _size_made(operator, left, right) > LONGEST_TEXT:
-            raise TooMuchError(f"a text or list of more than {LONGEST_TEXT:,}")
+        if operator in {"*", "+"}:
+            self._spend(size_made(operator, left, right))
         return super().call_binop(context, operator, left, right)
+
+    def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
+        """Whether something may be used: of plain values only what makes no more than there is."""
+        unbounded = isinstance(value, BuiltinMethodType) and attr not in METHODS
+        return not unbounded and super().is_safe_attribute(obj, attr, value)
+
+    def wrap_str_format(self, value: Any) -> Callable[..., str] | None:
+        """A text's ``format``, unless the text asks for filling."""
+        form = getattr(value, "__self__", None)
+        if isinstance(form, str):
+            check_form(form)
+        wrapped: Callable[..., str] | None = super().wrap_str_format(value)
+        return wrapped
+
+    def _limited(self, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+        """A filter that spends steps for what it may make."""
+        hidden = 1 if hasattr(function, "jinja_pass_arg") else 0
+
+        @wraps(function)
+        def limited(*args: Any, **options: Any) -> Any:
+            above, (value, *more) = args[:hidden], args[hidden:]
+            if name == "join":
+                value = self._joined_parts(value, options.pop("attribute", None), *more[1:])
+                more = more[:1]
+            if name == "format":
+                check_form(str(value))
+            sizes = [weight(value), *(extent(part) for part in (*more, *options.values()))]
+            self._spend(math.prod(max(1, size) for size in sizes) if name in MULTIPLYING
+                        else sum(sizes))  # fmt: skip
+            return function(*above, value, *more, **options)
+
+        return limited
+
+    def _joined_parts(self, values: Iterable[Any], attribute: str | int | None) -> list[Any]:
+        """What is joined, itself or an attribute of each."""
+        if attribute is None:
+            return list(values)
+        return list(map(jinja2.filters.make_attrgetter(self, attribute), values))
 
     def _parse(self, source: str, name: str | None, filename: str | None) -> nodes.Template:
         parsed = super()._parse(source, name, filename)
@@ -126,17 +177,25 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         return counted
 
     def _count_step(self) -> str:
-        steps = self._steps.get([0])
-        steps[0] += 1
-        if steps[0] > MOST_STEPS:
-            raise TooMuchError(f"loops of more than {MOST_STEPS:,} steps")
+        self._spend(0)
         return ""
 
     def _join(self, *parts: object) -> str:
-        texts = [str(part) for part in parts]
-        if sum(map(len, texts)) > LONGEST_TEXT:
-            raise TooMuchError(f"a text of more than {LONGEST_TEXT:,} characters")
-        return "".join(texts)
+        return "".join([str(self._bounded(part)) for part in parts])
+
+    def _bounded(self, value: Any) -> Any:
+        """A value that is about to become text."""
+        self._spend(weight(value))
+        return value
+
+    def _spend(self, size: int) -> None:
+        """Count a step that makes something of a size, in characters or parts."""
+        if size > LONGEST_TEXT:
+            raise TooMuchError(f"a text or list of more than {LONGEST_TEXT:,}")
+        steps = self._steps.get([0])
+        steps[0] += 1 + size // _SIZE_OF_A_STEP
+        if steps[0] > MOST_STEPS:
+            raise TooMuchError(f"loops of more than {MOST_STEPS:,} steps")
 
 
 class _Counting(NodeTransformer):
@@ -158,14 +217,9 @@ def _call(name: str, arguments: list[nodes.Expr], line: int) -> nodes.Call:
     return nodes.Call(function, arguments, [], None, None, lineno=line)
 
 
-def _size_made(operator: str, left: object, right: object) -> int:
-    sizes = [
-        len(value) if isinstance(value, str | list | tuple) else None for value in (left, right)
-    ]
-    if operator == "+":
-        return sum(size or 0 for size in sizes)
-    times = next((value for value in (left, right) if isinstance(value, int)), 0)
-    return max((size or 0) * times for size in sizes)
+def _whole_characters(text: str) -> str:
+    """A text without halves of characters, which cannot be sent."""
+    return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 def _place(error: BaseException, name: str) -> tuple[str, int | None]:
