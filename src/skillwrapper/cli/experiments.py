@@ -15,6 +15,7 @@ from rich.table import Table as RichTable
 from rich.text import Text
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.readings import ReadingsOption
 from skillwrapper.cli.setting_options import ConfigOption, SetOption
 from skillwrapper.cli.wide_tables import table_console
 from skillwrapper.errors import ConfigurationError
@@ -57,14 +58,16 @@ def run(
     ray: Annotated[
         str | None, typer.Option(help="Address of a Ray cluster: auto, local, ray://HOST:PORT.")
     ] = None,
+    readings: ReadingsOption = None,
     config: ConfigOption = None,
     assignments: SetOption = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Run all cells of an experiment; the same command again runs those that are missing."""
-    folder = ExperimentFolder.create_or_resume(
-        out, read_experiment(file, config, assignments or ())
-    )
+    assignments = assignments or []
+    if readings is not None:
+        assignments = [*assignments, f"readings={readings}"]
+    folder = ExperimentFolder.create_or_resume(out, read_experiment(file, config, assignments))
     cells = len(folder.experiment().cells)
     opened = open_ray_workers(out, ray) if ray is not None else open_workers(out, workers)
     console = messages()

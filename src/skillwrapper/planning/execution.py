@@ -116,13 +116,20 @@ def attempt(
     attempts: list[Attempt] = []
     for plan in plans[:PLANNING_BUDGET]:
         prepare()
-        attempts.append(_run(environment, plan, goal_reached))
+        attempts.append(run_plan(environment, plan, goal_reached))
         if attempts[-1].succeeded:
             break
     return ExecutionReport(tuple(attempts))
 
 
-def _run(environment: Environment, plan: SkillPlan, goal_reached: Callable[[], bool]) -> Attempt:
+def run_plan(
+    environment: Environment, plan: SkillPlan, goal_reached: Callable[[], bool]
+) -> Attempt:
+    """Run one plan from where the environment is, until its end or the first failed skill.
+
+    Raises:
+        RobotError: if the robot or simulator itself fails.
+    """
     start = environment.observe()
     outcomes: list[Outcome] = []
     for instance in plan:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,6 +50,14 @@ class RecordedTransitions:
         self._observations: dict[Scene, list[Observation]] = {}
         self._numbers: dict[Scene, dict[str, int]] = {}
         self._executions: dict[Scene, Executions] = {}
+
+    @classmethod
+    def of(cls, domain: Domain, episodes: Iterable[Episode]) -> RecordedTransitions:
+        """The transitions of several episodes, in their order."""
+        recorded = cls(domain)
+        for episode in episodes:
+            recorded.add(episode)
+        return recorded
 
     def __len__(self) -> int:
         return len(self.records)

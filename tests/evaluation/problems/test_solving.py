@@ -26,7 +26,9 @@ from skillwrapper.evaluation.problems.problems import Problem
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.evaluation.problems.solving import ModelSolver
 from skillwrapper.grounding import AtomSpace, Labels
+from skillwrapper.perception.acquaintance import Acquaintance, FamiliarStates
 from skillwrapper.planning import KStar, Planner
+from skillwrapper.planning.hypotheses.doubtful_planner import DoubtfulPlanner
 from skillwrapper.planning.kstar import SearchOutcome
 from skillwrapper.planning.problem import PlanningProblem
 from skillwrapper.planning.result import PlanningStatus
@@ -229,3 +231,36 @@ def test_readers_agree_on_what_both_know() -> None:
     first, second = TRUTH.read(atoms, seen), system_reader(kitchen).read(atoms, seen)
     assert (first == second).all()
     assert first.sum() == 2
+
+
+def test_a_misread_start_does_not_matter_to_a_plan_that_serves_both() -> None:
+    """The patty is taken to be cooked already; as that may be wrong, it is cooked all the same."""
+    cooked = BurgerState(("table", "board", "table", "table"), cooked=True)
+    problem = make_problem(START, cooked)
+    reader = Misreader(START, Atom("is_cooked", ("patty",)))
+    assert not solve(problem, reader=reader).solved
+    found = in_doubt(reader).solve(problem)
+    assert (found.solved, found.budget, found.attempts) == (True, 1, 1)
+
+
+def test_a_misread_goal_is_no_impossible_one() -> None:
+    """Nothing is on the lettuce, and yet the patty lies on it, they say."""
+    goal = BurgerState(("board", "lettuce", "table", "table"))
+    reader = Misreader(goal, Atom("nothing_on", ("lettuce",)))
+    problem = make_problem(START, goal)
+    assert solve(problem, reader=reader).claimed_impossible
+    assert in_doubt(reader).solve(problem).solved
+
+
+def test_impossible_is_claimed_after_what_may_be_meant_was_tried() -> None:
+    found = in_doubt(TRUTH).solve(make_problem(CUT, START))
+    assert (found.solved, found.claimed_impossible, found.budget) == (True, True, None)
+    assert found.attempts < 10
+
+
+def in_doubt(reader: StateReader) -> ModelSolver:
+    model, scene = expert_model(), SketchedKitchen().scene
+    start = TRUTH.read(AtomSpace(model.predicates, scene.objects), [Situation.seen(None, START)])
+    familiar = {scene: FamiliarStates.certain(start)}
+    doubts = DoubtfulPlanner(model, Acquaintance(familiar=familiar))
+    return replace(solver_of(model, reader), doubts=doubts)

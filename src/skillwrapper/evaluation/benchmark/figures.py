@@ -101,6 +101,11 @@ def _falsely_impossible(cell: CellResult) -> float | None:
     return _share([p.claimed_impossible for p in solvable])
 
 
+def _attempts(cell: CellResult) -> float | None:
+    """Plans that were run before it was claimed that there is no solution."""
+    return _mean([p.attempts for p in cell.problems if p.claimed_impossible])
+
+
 def _length_ratio(cell: CellResult) -> float | None:
     return _mean([p.length / p.optimal for p in cell.problems if p.length and p.optimal])
 
@@ -113,6 +118,7 @@ FIGURES: Final[Mapping[str, Figure]] = MappingProxyType(
         "budget_easy": _budget(EASY),
         "budget_hard": _budget(HARD),
         "falsely_impossible": _falsely_impossible,
+        "attempts": _attempts,
         "length_ratio": _length_ratio,
         "precision": _exact("precision"),
         "recall": _exact("recall"),

@@ -113,6 +113,7 @@ class ExperimentSummary:
                 f"at most {chosen.easy} easy, {chosen.hard} hard, {chosen.impossible} impossible",
             ),
             ("Planning", f"at most {settings.planner.time_limit:g} s a problem"),
+            ("Readings", settings.readings),
         )
 
     def to_json(self) -> dict[str, Any]:

@@ -27,6 +27,7 @@ _LAYOUTS: tuple[tuple[str, tuple[tuple[str, str, int], ...]], ...] = (
             ("budget", "budget_hard", 1),
             ("impossible %", "impossible", 1),
             ("falsely impossible %", "falsely_impossible", 1),
+            ("plans before the claim", "attempts", 2),
             ("length / optimal", "length_ratio", 2),
         ),
     ),

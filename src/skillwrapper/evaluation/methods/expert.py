@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Final
@@ -10,10 +10,14 @@ from typing import Final
 from skillwrapper.evaluation.exact.learning_curves import Stage
 from skillwrapper.evaluation.exact.state_readers import AtomReader, PictureReader
 from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
+from skillwrapper.perception.acquaintance import Acquaintance
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.archive import make_archive
 from skillwrapper.runs.model_sessions import open_session
+from skillwrapper.symbols import Predicate
 from skillwrapper.world.capabilities import Settable, require
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 
 
 @dataclass(frozen=True)
@@ -58,8 +62,34 @@ class ExpertMethod:
         with open_session(config, archive.layout.calls, learning=False) as session:
             table = TruthTable(context.environment.domain, session.assistant)
             reader = PictureReader(table)
-            solver = context.solver(model, reader, exact, lambda: session.counter.answered)
+            solver = context.solver(
+                model,
+                reader,
+                exact,
+                lambda: session.counter.answered,
+                lambda: _look_around(context, table, model.predicates),
+            )
             yield Prepared(solver, stages, exact, calls=archive)
+
+
+def _look_around(
+    context: CellContext, table: TruthTable, predicates: Sequence[Predicate]
+) -> Acquaintance:
+    """Read what resets show: nothing else was executed."""
+    environment, settings = context.environment, context.settings
+    starts: dict[Scene, list[Observation]] = {}
+    for name in environment.domain.scenes:
+        for number in range(1, settings.hypotheses.starts + 1):
+            seed = context.config().layout_seed(number)
+            seen = environment.reset(seed=seed, scene=name)
+            starts.setdefault(environment.scene, []).append(seen)
+    return Acquaintance.from_starts(
+        starts,
+        table,
+        predicates,
+        restored=environment.domain.resets_restore_state,
+        priors=settings.perception.decoding,
+    )
 
 
 EXPERT: Final = ExpertMethod("expert", "Expert Operators, true states", reads_pictures=False)

@@ -10,11 +10,13 @@ from typing import Final
 from skillwrapper.evaluation.exact.learning_curves import read_stages
 from skillwrapper.evaluation.exact.state_readers import PictureReader
 from skillwrapper.evaluation.methods.method import CellContext, Prepared, Shares
+from skillwrapper.perception.acquaintance import Acquaintance
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.launch import learn
 from skillwrapper.runs.model_sessions import open_session
 from skillwrapper.runs.settings import RunSettings
+from skillwrapper.transitions.recorded import RecordedTransitions
 
 WHOLE_METHOD: Final = Shares(
     "reads pictures, proposes predicates",
@@ -54,12 +56,20 @@ class LearnedMethod:
         archive = RunArchive.open(path)
         stages = read_stages(archive)
         with open_session(config, archive.layout.calls, learning=False) as session:
-            recorded = TruthTable(context.environment.domain, session.assistant)
+            domain, model = context.environment.domain, stages[-1].model
+            recorded = TruthTable(domain, session.assistant)
+
+            def remember() -> Acquaintance:
+                done = RecordedTransitions.of(domain, result.episodes)
+                priors = config.perception.decoding
+                return Acquaintance.from_record(done, recorded, model.predicates, priors)
+
             solver = context.solver(
-                stages[-1].model,
+                model,
                 PictureReader(recorded),
                 context.exact.read,
                 lambda: session.counter.answered,
+                remember,
             )
             yield Prepared(
                 solver,

@@ -19,7 +19,9 @@ from skillwrapper.evaluation.problems.problem_world import ProblemWorld
 from skillwrapper.evaluation.problems.problems import Problem
 from skillwrapper.evaluation.problems.results import ProblemResult
 from skillwrapper.evaluation.problems.solving import ModelSolver
+from skillwrapper.perception.acquaintance import Acquaintance
 from skillwrapper.perception.labelling import TruthSource
+from skillwrapper.planning.hypotheses.doubtful_planner import DoubtfulPlanner
 from skillwrapper.planning.planner import Planner
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.settings import RunSettings
@@ -66,6 +68,7 @@ class CellContext:
         reader: StateReader,
         truth: Sequence[LabelledStates],
         calls: Callable[[], int] = lambda: 0,
+        acquaintance: Callable[[], Acquaintance] | None = None,
     ) -> ModelSolver:
         """A solver with a model and a planner.
 
@@ -74,6 +77,7 @@ class CellContext:
             reader: reads start and goal.
             truth: all states with labels without error, to tell causes; may be empty.
             calls: how many questions were put to models so far.
+            acquaintance: what is known of readings and of states; None where nothing is misread.
 
         Raises:
             MissingDependencyError: if the planner is not installed.
@@ -81,7 +85,11 @@ class CellContext:
         by_scene = {labelled.states.scene.name: labelled for labelled in truth}
         planner = Planner(self.settings.planner)
         planner.engine.check_installed()
-        return ModelSolver(self.world, model, reader, planner, by_scene, calls)
+        doubts = None
+        if acquaintance is not None and self.settings.readings == "hypotheses":
+            priors = self.settings.perception.decoding
+            doubts = DoubtfulPlanner(model, acquaintance(), self.settings.hypotheses, priors)
+        return ModelSolver(self.world, model, reader, planner, by_scene, calls, doubts)
 
 
 class Solver(Protocol):

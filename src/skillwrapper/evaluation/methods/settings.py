@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from pydantic import Field, field_validator
 
+from skillwrapper.planning.hypotheses.settings import HypothesesSettings
 from skillwrapper.planning.planner import PlannerSettings
 from skillwrapper.runs.settings import ModelSettings, RunSettings, SharedSettings
 
@@ -16,6 +19,14 @@ class ExperimentSettings(SharedSettings):
 
     planner: PlannerSettings = Field(
         default_factory=PlannerSettings, description="how plans are looked for"
+    )
+    readings: Literal["single", "hypotheses"] = Field(
+        default="single",
+        description="how start and goal are taken: as they are read (single), or as what likely "
+        "lies behind it (hypotheses), of which one after the other is tried",
+    )
+    hypotheses: HypothesesSettings = Field(
+        default_factory=HypothesesSettings, description="how hypotheses are tried"
     )
     actions: int = Field(
         default=35,

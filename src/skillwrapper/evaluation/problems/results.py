@@ -41,6 +41,7 @@ class ProblemResult:
         detail: the same in words.
         plan: the first plan, or what was executed; for reports.
         judge: who says whether the goal was reached.
+        attempts: plans that were run, also before it was claimed that there is no solution.
     """
 
     problem: str
@@ -59,6 +60,7 @@ class ProblemResult:
     detail: str = ""
     plan: tuple[str, ...] = ()
     judge: Judge = Judge.ENVIRONMENT
+    attempts: int = 0
 
     @classmethod
     def of(

@@ -92,6 +92,18 @@ def chains_of(recorded: RecordedTransitions) -> tuple[Chain, ...]:
     )
 
 
+def chain_of_starts(scene: Scene, starts: int, *, restored: bool) -> Chain:
+    """The chain of pictures that were taken after resets alone.
+
+    Args:
+        scene: the objects.
+        starts: number of pictures, at least one.
+        restored: whether all show the same state.
+    """
+    step = Step(StepKind.SAME if restored else StepKind.RESET)
+    return _chain(scene, starts, tuple((0, start, step) for start in range(1, starts)))
+
+
 def _chain(scene: Scene, nodes: int, edges: tuple[tuple[int, int, Step], ...]) -> Chain:
     number = {step: place for place, step in enumerate(dict.fromkeys(s for _, _, s in edges))}
     rows = np.array([(b, a, number[s]) for b, a, s in edges], dtype=np.intp).reshape(-1, 3)
