@@ -135,6 +135,14 @@ def test_unknown_labels_are_no_counterexample() -> None:
     assert len(learned.operator.conditional_effects) == 1
 
 
+def test_a_scene_in_which_nothing_can_be_said_is_no_counterexample() -> None:
+    notebook = Notebook(CANTEEN, ON)
+    notebook.success("on(c1, tray) on(c2, tray)", "Empty(r, tray)", "")
+    notebook.episode(("", "Empty(r, tray)", True, "#2"), scene=["r", "tray"])
+    (learned,) = notebook.fit_skill("Empty").operators
+    assert len(learned.operator.conditional_effects) == 1
+
+
 def test_what_happens_to_all_of_them_needs_no_relation_among_the_changes() -> None:
     """Whatever is on the tray becomes clean; only the condition connects it to the tray."""
     clean = Predicate("clean", ("cup",))

@@ -197,9 +197,10 @@ class _Others:
         """
         columns = self.columns[:, place]
         first = self.bundle.rows[self.bundle.first]
-        did = self.bundle.table.change[first[:, np.newaxis], columns] == sign
         could = columns >= 0
-        did = could & did
+        did = np.zeros_like(could)
+        groups, _ = np.nonzero(could)  # a scene may have no column at all
+        did[could] = self.bundle.table.change[first[groups], columns[could]] == sign
         return could[self.bundle.group], did[self.bundle.group]
 
     def types(self, marked: NDArray[np.bool_]) -> list[frozenset[str]]:
