@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 import skillwrapper
 from skillwrapper.cli.output import messages, results
@@ -32,6 +33,19 @@ def test_consoles_print_what_they_are_given(console: object) -> None:
         made.print(HOSTILE, style="bold")
         made.print(table)
     assert printed.get().count(HOSTILE) == 5
+
+
+def test_consoles_pass_on_nothing_that_steers_the_terminal() -> None:
+    """Descriptions in a domain, and what a robot says, once changed colours and titles."""
+    console = results()
+    steering = "a\x1b[31mb\x1b]0;c\x07d\x9b2Je\u202ef\x00g\x08h\ri"
+    table = Table(title=steering, box=None)
+    table.add_column(steering)
+    table.add_row(Text(steering))
+    with console.capture() as printed:
+        console.print(steering, style="bold")
+        console.print(table)
+    assert printed.get().count("a[31mb]0;cd2Jefghi") == 4
 
 
 def test_progress_prints_what_it_is_given() -> None:

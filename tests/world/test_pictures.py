@@ -166,6 +166,12 @@ def test_huge_pictures_are_refused(tmp_path: Path) -> None:
             load_picture(path)
 
 
+def test_a_program_that_draws_is_not_run(tmp_path: Path) -> None:
+    (tmp_path / "a.eps").write_text("%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 9 9\n{} loop\n")
+    with pytest.raises(PictureError, match="got a program"):
+        load_picture(tmp_path / "a.eps")
+
+
 def test_a_device_without_an_end_is_no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pictures, "_MOST_BYTES", 1 << 20)
     with pytest.raises(PictureError, match=r"/dev/zero: cannot be read \(File too large\)"):

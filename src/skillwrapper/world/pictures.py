@@ -63,6 +63,8 @@ def picture_of(shown: Shown, camera: str = MAIN_CAMERA) -> Picture:
 
 
 _MOST_BYTES = 1 << 28
+_PROGRAMS = frozenset({"EPS", "WMF"})
+"""Formats that an interpreter outside would draw, which may do and take whatever the file says."""
 
 
 def load_picture(path: Path, camera: str = MAIN_CAMERA) -> Picture:
@@ -139,6 +141,8 @@ def _decode(data: bytes, camera: str, where: str) -> Picture:
         with image:
             if image.width * image.height > _MOST_PIXELS:
                 raise _too_large(where)
+            if image.format in _PROGRAMS:
+                raise PictureError(f"{where}: expected a picture (PNG, JPEG, ...), got a program")
             image.load()
             if _is_plain(image):
                 return Picture(data, camera)
