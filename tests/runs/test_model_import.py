@@ -14,8 +14,11 @@ from cubes import learn_cubes
 from skillwrapper.domains.burger.expert import expert_model
 from skillwrapper.errors import RefusedModelError, UserError
 from skillwrapper.learning.untested import find_tests
+from skillwrapper.review.session import Review
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.edited_domain import read_edited_domain
+from skillwrapper.runs.imported_model import imported_note
+from skillwrapper.runs.launch import learn_recorded
 from skillwrapper.runs.model_import import import_model
 from skillwrapper.runs.recollection import Recollection
 from skillwrapper.symbols import AbstractModel, Atom, ConditionalEffect, Literal, Variable
@@ -168,6 +171,67 @@ def test_a_predicate_in_other_words(run: RunArchive, tmp_path: Path) -> None:
 def test_a_predicate_that_nobody_has_read(run: RunArchive, tmp_path: Path) -> None:
     words = tmp_path / "predicates.yaml"
     words.write_text("predicates:\n- {name: new_one, types: [cube], semantics: it is new}\n")
-    with pytest.raises(RefusedModelError, match="was never read off a picture"):
+    with pytest.raises(
+        RefusedModelError, match=r"predicates\.yaml:2: .*was never read off a picture"
+    ):
         import_model(run, words)
     assert not run.corrections()
+
+
+def edited(run: RunArchive, file: Path) -> set[object]:
+    """Import a domain without a condition that nothing tests; the operators then."""
+    without(file, *literals(run, tested=False))
+    import_model(run, file)
+    return operators_of(RunArchive.open(run.path))
+
+
+def test_an_imported_model_stays_when_learning_goes_on(
+    run: RunArchive, file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    learned, imported = operators_of(run), edited(run, file)
+    assert imported != learned
+    again = ("--iterations", 3, "--budget", 12, "--seed", 0)
+    assert command("learn", run.settings().domain, "--out", run.path, *again) == 0
+    assert "those that were imported" in capsys.readouterr().err
+    assert operators_of(RunArchive.open(run.path)) == imported
+    run.layout.imported.unlink()
+    learn_recorded(run.path)
+    assert operators_of(RunArchive.open(run.path)) == learned
+
+
+def test_an_imported_model_gives_way_to_what_speaks_against_it(
+    run: RunArchive, file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    imported = edited(run, file)
+    name = next(p.name for p in run.latest().model.predicates if p.types == ("box",))
+    key, labels = next(iter(run.latest().labels.rows.items()))
+    was = labels[f"{name}(box)"]
+    form = {"kind": "label", "observation": key, "atom": f"{name}(box)"}
+    Review(run).correct({**form, "value": str(not was).lower()})
+    assert operators_of(RunArchive.open(run.path)) != imported
+    assert command("show", run.path) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "learned ones, not those that were imported: " in said
+    assert ": episode " in said
+    assert "not those that were imported" in Review(run).page()
+    Review(run).correct({**form, "value": str(was).lower()})
+    assert operators_of(RunArchive.open(run.path)) == imported
+
+
+def test_an_imported_model_follows_renamed_predicates(run: RunArchive, file: Path) -> None:
+    imported = edited(run, file)
+    old = next(p.name for p in run.latest().model.predicates if p.types == ("box",))
+    Review(run).correct({"kind": "rename", "predicate": old, "to": "lid_up"})
+    renamed = {o.reworded({old: "lid_up"}) for o in imported}  # type: ignore[attr-defined]
+    assert operators_of(RunArchive.open(run.path)) == renamed != imported
+    Review(run).correct({"kind": "reject", "predicate": "lid_up"})
+    assert f"predicate '{old}' that they speak of is gone" in imported_note(run)
+
+
+def test_a_damaged_import_is_named(run: RunArchive, file: Path) -> None:
+    edited(run, file)
+    run.layout.imported.write_text('{"domain": "cubes",\n "predicates": [], "operators": 3}')
+    before = contents(run.path)
+    with pytest.raises(UserError, match=r"imported\.json:2: 'operators'"):
+        learn_recorded(run.path)
+    assert contents(run.path) == before

@@ -15,6 +15,7 @@ from skillwrapper.runs.archive import ArchivedIteration, RunArchive
 from skillwrapper.runs.archive.pictures import PictureStore
 from skillwrapper.runs.archive.records import to_plain
 from skillwrapper.runs.estimated_noise import estimate_profile, print_profile
+from skillwrapper.runs.imported_model import imported_note
 from skillwrapper.symbols.describe import describe_operator
 from skillwrapper.symbols.pddl import print_domain
 
@@ -46,11 +47,11 @@ def show(
     if noise:
         typer.echo(_noise_profile(run, learned), nl=False)
     elif as_json:
-        print_json(_describe(learned))
+        print_json(_describe(learned) | {"imported": imported_note(archive)})
     elif pddl:
         typer.echo(print_domain(learned.model), nl=False)
     else:
-        _print(learned, archive.pictures)
+        _print(learned, archive.pictures, imported_note(archive))
 
 
 def _describe(learned: ArchivedIteration) -> dict[str, object]:
@@ -84,7 +85,7 @@ def _noise_profile(run: Path, learned: ArchivedIteration) -> str:
     return print_profile(estimate_profile(learned.decoding, learned.model.predicates, source))
 
 
-def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:
+def _print(learned: ArchivedIteration, pictures: PictureStore, imported: str) -> None:
     console = results()
     console.print("predicates", style="bold")
     for predicate in learned.model.predicates:
@@ -98,6 +99,8 @@ def _print(learned: ArchivedIteration, pictures: PictureStore) -> None:
             wrong = f"{rates.false_positive:.1%} of false, {rates.false_negative:.1%} of true atoms"
             console.print(f"      misread, as estimated: {wrong}")
     console.print("\noperators", style="bold")
+    if imported:
+        console.print(f"  note: {imported}", markup=False)
     for operator in learned.model.operators:
         for line in describe_operator(operator, learned.untested(operator)).splitlines():
             console.print(f"  {line}")

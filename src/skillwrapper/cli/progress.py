@@ -13,6 +13,7 @@ from rich.text import Text
 
 from skillwrapper.runs.decisions import PredicateDecision
 from skillwrapper.runs.events import (
+    ImportedModelTried,
     IterationFinished,
     IterationStarted,
     PredicateDecided,
@@ -101,6 +102,8 @@ class RunProgress:
                 status.decisions.append(_describe(event.decision))
             case IterationFinished():
                 self._console.print(self._iteration_line(event.result.figures), soft_wrap=True)
+            case ImportedModelTried():
+                self._console.print(f"note: {event.outcome}", soft_wrap=True, markup=False)
 
     def _count(self, event: SkillExecuted | SkillRecalled) -> None:
         status, done = self._status, event.transition

@@ -19,6 +19,7 @@ from skillwrapper.runs.archive.records import (
     Rewording,
 )
 from skillwrapper.runs.corrections import Corrections
+from skillwrapper.runs.imported_model import imported_note
 from skillwrapper.runs.relearning import relearn
 from skillwrapper.symbols import Predicate
 from skillwrapper.symbols.describe import describe_model
@@ -56,6 +57,7 @@ class Review:
             problem=problem,
             predicates=latest.model.predicates,
             operators=describe_model(latest.model),
+            imported=imported_note(self.archive),
             summary=latest.summary,
             certificate=latest.certificate,
             corrections=len(self.archive.corrections()),

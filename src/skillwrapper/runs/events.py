@@ -134,5 +134,16 @@ class RunFinished(RunEvent):
     result: LearningResult
 
 
+@dataclass(frozen=True)
+class ImportedModelTried(RunEvent):
+    """Operators that a person has imported were put to all that is recorded, after the run.
+
+    Attributes:
+        outcome: whether the run goes by them, or why not, for people.
+    """
+
+    outcome: str
+
+
 Observer = Callable[[RunEvent], None]
 """Told of every event, in order, before the run goes on."""

@@ -27,9 +27,12 @@ from skillwrapper.runs.archive import (
     restate_settings,
 )
 from skillwrapper.runs.corrections import CorrectedRespondent, Corrections
-from skillwrapper.runs.events import Observer, RunEvent, RunStarted
+from skillwrapper.runs.events import ImportedModelTried, Observer, RunEvent, RunStarted
+from skillwrapper.runs.imported_model import read_imported, retake
 from skillwrapper.runs.model_sessions import CallCounter, open_session
 from skillwrapper.runs.models import check_models
+from skillwrapper.runs.recollection import Recollection
+from skillwrapper.runs.relearning import write_fit
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.runs.settings_layers import SettingsLayers
@@ -150,6 +153,7 @@ def _run(
         earlier, corrections = EarlierRun(words=words), Corrections()
         if archive is not None:
             watching.append(ArchiveWriter(archive))
+            read_imported(archive)  # first: a damaged file is said before anything is done
             corrections = Corrections.of(archive.corrections())
             corrected = map(corrections.applied, words)
             words = tuple(p for p in corrected if p and p.name not in corrections.words)
@@ -168,7 +172,23 @@ def _run(
         assistant: Respondent = session.assistant
         if corrections:
             assistant = CorrectedRespondent(assistant, corrections)
-        return LearningAlgorithm(settings, environment, assistant, watching, earlier).run()
+        result = LearningAlgorithm(settings, environment, assistant, watching, earlier).run()
+        return result if archive is None else _with_imported(archive, result, watching)
+
+
+def _with_imported(
+    archive: RunArchive, learned: LearningResult, observers: Sequence[Observer]
+) -> LearningResult:
+    """Imported operators in the place of learned ones, where nothing speaks against them."""
+    if not archive.layout.imported.exists():
+        return learned
+    known = Recollection.of(archive)
+    retaken = retake(archive, known)
+    if retaken is None:
+        return learned
+    for observer in observers:
+        observer(ImportedModelTried(known.latest.number, str(retaken)))
+    return learned if retaken.against else write_fit(archive, known, retaken.fit)
 
 
 def _words(settings: RunSettings, domain: Domain) -> tuple[Predicate, ...]:

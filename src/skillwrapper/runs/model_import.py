@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
-
-import numpy as np
 
 from skillwrapper.errors import RefusedModelError
 from skillwrapper.invention.fitter import Fitter
-from skillwrapper.learning.clusters import Cluster
-from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.learner import make_learner
-from skillwrapper.learning.operators import LearnedOperator
-from skillwrapper.learning.predictions import TablePrediction, predict
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.archive.records import CorrectionRecord, Rejection, Rewording
-from skillwrapper.runs.edited_domain import EditedOperator, read_edited_domain
+from skillwrapper.runs.edited_domain import read_edited_domain
 from skillwrapper.runs.explanation import placed_transitions
+from skillwrapper.runs.imported_model import fit_of, keep_imported
+from skillwrapper.runs.objections import new_objections
 from skillwrapper.runs.recollection import Recollection
 from skillwrapper.runs.relearning import relearn, write_fit
 from skillwrapper.symbols import Predicate
-from skillwrapper.symbols.files import read_predicates
-from skillwrapper.transitions.tables import SkillData
-from skillwrapper.world.skills import Skill
+from skillwrapper.symbols.files import read_placed_predicates
 
 
 def import_model(archive: RunArchive, path: Path) -> Fit:
@@ -51,38 +45,32 @@ def import_model(archive: RunArchive, path: Path) -> Fit:
 def _import_domain(archive: RunArchive, path: Path) -> Fit:
     known = Recollection.of(archive)
     edited = read_edited_domain(path, known.latest.model)
-    fit = _fit_of(known, edited)
-    before = {(o.kind, o.transition) for o in _objections(known.fit())}
+    fit = fit_of(known, [one.operator for one in edited])
     places = {one.operator.name: one.where for one in edited}
     transitions = placed_transitions(known)
     reasons = []
-    for objection in _objections(fit):
-        if (objection.kind, objection.transition) not in before:
-            names = objection.operators or [
-                o.operator.name for o in fit.skill(objection.skill).operators
-            ]
-            where = next((places[name] for name in names), f"{path}:1")
-            who = names[0] if names else objection.skill
-            reasons.append(f"{where}: {who} {objection.kind} {transitions[objection.transition]}")
+    for objection in new_objections(fit, known.fit()):
+        where = places.get(objection.subject, f"{path}:1")
+        what = f"{objection.subject} {objection.kind} {transitions[objection.transition]}"
+        reasons.append(f"{where}: {what}")
     if reasons:
         raise RefusedModelError(path, reasons)
+    keep_imported(archive, fit)
     write_fit(archive, known, fit)
     return fit
 
 
 def _import_predicates(archive: RunArchive, path: Path) -> Fit:
     known = Recollection.of(archive)
-    wanted = read_predicates(path, archive.domain())
+    wanted = read_placed_predicates(path, archive.domain())
     corrections = tuple(_corrections(known.vocabulary, wanted, path))
-    names = {p.name for p in wanted}
+    names = {predicate.name for predicate, _ in wanted}
     kept = [p for p in known.vocabulary if p.name in names]
-    before = {(o.kind, o.transition) for o in _objections(known.fit())}
     fit = Fitter(known.labeller, make_learner(known.settings.learning)).fit(kept)
     transitions = placed_transitions(known)
     reasons = [
         f"{path}: without what was left out, {o.skill} {o.kind} {transitions[o.transition]}"
-        for o in _objections(fit)
-        if (o.kind, o.transition) not in before
+        for o in new_objections(fit, known.fit())
     ]
     if reasons:
         raise RefusedModelError(path, reasons)
@@ -92,15 +80,15 @@ def _import_predicates(archive: RunArchive, path: Path) -> Fit:
 
 
 def _corrections(
-    vocabulary: Sequence[Predicate], wanted: Sequence[Predicate], path: Path
+    vocabulary: Sequence[Predicate], wanted: Sequence[tuple[Predicate, str]], path: Path
 ) -> Iterator[CorrectionRecord]:
     """What makes the wanted predicates out of those that there are."""
     present = {p.name: p for p in vocabulary}
-    for predicate in wanted:
+    for predicate, where in wanted:
         had = present.pop(predicate.name, None)
         if had is None or had.types != predicate.types:
             reason = (
-                f"{path}: '{predicate.signature}' was never read off a picture; learn with it: "
+                f"{where}: '{predicate.signature}' was never read off a picture; learn with it: "
                 "skillwrapper learn DOMAIN --predicates FILE"
             )
             raise RefusedModelError(path, [reason])
@@ -111,79 +99,3 @@ def _corrections(
                 )
             )
     yield from (CorrectionRecord(Rejection(predicate=name)) for name in present)
-
-
-def _fit_of(known: Recollection, edited: Sequence[EditedOperator]) -> Fit:
-    """The edited operators on all that is recorded, each with the successes that it explains."""
-    least = known.settings.learning.least_confidence
-    labelled = known.labeller.label(known.vocabulary).decided(least)
-
-    def fit_skill(skill: Skill) -> SkillFit:
-        data = labelled.of_skill(skill.name)
-        own = [LearnedOperator(e.operator, Cluster((), ())) for e in edited if _is_of(e, skill)]
-        learned = tuple(replace(o, cluster=_explained(o, data)) for o in own)
-        return SkillFit(skill.name, learned, predict(data, learned))
-
-    return Fit(labelled.domain, known.vocabulary, fit_skill)
-
-
-def _is_of(edited: EditedOperator, skill: Skill) -> bool:
-    return edited.operator.skill == skill.name
-
-
-def _explained(learned: LearnedOperator, data: SkillData) -> Cluster:
-    """The successes whose change an operator makes."""
-    groups = [
-        group
-        for prediction in predict(data, [learned])
-        for group in prediction.table.successes
-        if np.isin(group.rows, prediction.applications[0].accounted).all()
-    ]
-    return Cluster(groups[0].lifting.change if groups else (), tuple(groups))
-
-
-@dataclass(frozen=True)
-class _Objection:
-    """A transition that speaks against operators.
-
-    Attributes:
-        skill: that was run.
-        kind: what is wrong, as the middle of a sentence.
-        transition: its number.
-        operators: the names of those that are wrong; none if it takes one that is not there.
-    """
-
-    skill: str
-    kind: str
-    transition: int
-    operators: list[str]
-
-
-def _objections(fit: Fit) -> Iterator[_Objection]:
-    """All, in order of the skills and of time."""
-    for of_skill in fit.each():
-        for prediction in of_skill.predictions:
-            found = [
-                *_of_rows(prediction, of_skill.skill, "applies where it failed:", failed=True),
-                *_of_rows(prediction, of_skill.skill, "says another change of:", failed=False),
-                *_missed(prediction, of_skill.skill),
-            ]
-            yield from sorted(found, key=lambda objection: objection.transition)
-
-
-def _of_rows(
-    prediction: TablePrediction, skill: str, kind: str, *, failed: bool
-) -> Iterator[_Objection]:
-    table = prediction.table
-    wrong: dict[int, list[str]] = {}
-    for application in prediction.applications:
-        rows = application.sure if failed else application.mispredicted
-        for row in rows[~table.success[rows]] if failed else rows:
-            wrong.setdefault(int(table.ids[row]), []).append(application.operator.name)
-    return (_Objection(skill, kind, number, names) for number, names in wrong.items())
-
-
-def _missed(prediction: TablePrediction, skill: str) -> Iterator[_Objection]:
-    table = prediction.table
-    for row in np.flatnonzero(table.success & ~prediction.accounted & ~prediction.undecided):
-        yield _Objection(skill, "no longer explains:", int(table.ids[row]), [])

@@ -64,6 +64,7 @@ class Recollection:
         recorded: their transitions.
         truth: what is true in their pictures.
         vocabulary: the predicates of the iteration, as they were corrected.
+        corrections: what a person has corrected.
         labeller: labels the transitions.
     """
 
@@ -73,6 +74,7 @@ class Recollection:
     recorded: RecordedTransitions
     truth: CorrectedTruth
     vocabulary: tuple[Predicate, ...]
+    corrections: Corrections
     labeller: Labeller
 
     @classmethod
@@ -93,7 +95,7 @@ class Recollection:
         truth = CorrectedTruth(latest.labels, names, corrections)
         settings = archive.settings()
         labeller = _labeller(settings, recorded, truth, vocabulary)
-        return cls(latest, settings, episodes, recorded, truth, vocabulary, labeller)
+        return cls(latest, settings, episodes, recorded, truth, vocabulary, corrections, labeller)
 
     def fit(self) -> Fit:
         """What is learned from it."""

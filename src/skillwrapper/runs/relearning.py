@@ -13,6 +13,7 @@ from skillwrapper.perception.overruling import certify_decoding
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.archive.archive import ArchivedIteration
 from skillwrapper.runs.archive.writer import ArchiveWriter
+from skillwrapper.runs.imported_model import retake
 from skillwrapper.runs.recollection import Recollection
 from skillwrapper.runs.results import LearningResult, ReadingCosts
 
@@ -21,7 +22,7 @@ def relearn(archive: RunArchive) -> LearningResult:
     """Learn from what is recorded with the present corrections, and write down what comes of it.
 
     The vocabulary is that of the last finished iteration, as it was corrected; its files and the
-    model of the run are replaced.
+    model of the run are replaced. Imported operators stay if nothing recorded speaks against them.
 
     Args:
         archive: of a run that nobody else works in.
@@ -30,7 +31,8 @@ def relearn(archive: RunArchive) -> LearningResult:
         UserError: if no iteration is finished, or a file is damaged.
     """
     known = Recollection.of(archive)
-    return write_fit(archive, known, known.fit())
+    retaken = retake(archive, known)
+    return write_fit(archive, known, retaken.fit if retaken else known.fit())
 
 
 def write_fit(archive: RunArchive, known: Recollection, fit: Fit) -> LearningResult:

@@ -88,8 +88,22 @@ def read_predicates(path: Path, domain: Domain) -> tuple[Predicate, ...]:
         ConfigurationError: with file, line and what was expected.
         UnknownNameError: if a type is not one of the domain.
     """
+    return tuple(predicate for predicate, _ in read_placed_predicates(path, domain))
+
+
+def read_placed_predicates(path: Path, domain: Domain) -> tuple[tuple[Predicate, str], ...]:
+    """The same, each with the file and line where it stands.
+
+    Raises:
+        ConfigurationError: as ``read_predicates``.
+        UnknownNameError: if a type is not one of the domain.
+    """
     document = YamlDocument.read(path)
-    return _predicates(document, document.validate(_PredicatesFile).predicates, domain)
+    found = _predicates(document, document.validate(_PredicatesFile).predicates, domain)
+    return tuple(
+        (predicate, document.place(("predicates", number)))
+        for number, predicate in enumerate(found)
+    )
 
 
 def model_to_json(model: AbstractModel) -> str:

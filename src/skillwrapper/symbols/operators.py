@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from skillwrapper.errors import SymbolError
 from skillwrapper.symbols.predicates import Atom, Literal
@@ -125,14 +126,34 @@ class Operator:
 
     def renamed(self, name: str) -> Operator:
         """The same operator under another name."""
-        return Operator(
-            name,
-            self.skill,
-            self.parameters,
-            self.arity,
-            self.preconditions,
-            self.absences,
-            self.add_effects,
-            self.delete_effects,
-            self.conditional_effects,
+        return replace(self, name=name)
+
+    @property
+    def predicates(self) -> frozenset[str]:
+        """The names of all predicates that it speaks of."""
+        literals = set(self.preconditions)
+        for effect in self.conditional_effects:
+            literals.update((*effect.condition, effect.effect))
+        atoms = {x.atom for x in literals} | {x.atom for x in self.absences}
+        return frozenset(a.predicate for a in atoms | self.add_effects | self.delete_effects)
+
+    def reworded(self, names: Mapping[str, str]) -> Operator:
+        """The same operator with other names of predicates, by those that it has."""
+
+        def atom(one: Atom) -> Atom:
+            return replace(one, predicate=names.get(one.predicate, one.predicate))
+
+        def literal(one: Literal) -> Literal:
+            return replace(one, atom=atom(one.atom))
+
+        return replace(
+            self,
+            preconditions=frozenset(map(literal, self.preconditions)),
+            absences=frozenset(replace(a, atom=atom(a.atom)) for a in self.absences),
+            add_effects=frozenset(map(atom, self.add_effects)),
+            delete_effects=frozenset(map(atom, self.delete_effects)),
+            conditional_effects=frozenset(
+                replace(e, condition=tuple(map(literal, e.condition)), effect=literal(e.effect))
+                for e in self.conditional_effects
+            ),
         )

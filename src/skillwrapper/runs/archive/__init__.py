@@ -9,10 +9,11 @@ iterations/001/    truth table, predicates, operators, decisions, certificate, s
 model/             domain.pddl, predicates.yaml, model.json
 events.jsonl       what happened when
 corrections.jsonl  what people have corrected, if they have
+imported.json      the model that a person has edited and imported last, if they have
 curve.json         how true the model was after each iteration, if somebody measured it
 
-Episodes, pictures, calls and corrections are what a run cannot compute again; everything else
-follows from them, and is written anew by a resumed run where it is missing or damaged.
+Episodes, pictures, calls, corrections and imports are what a run cannot compute again; everything
+else follows from them, and is written anew by a resumed run where it is missing or damaged.
 """
 
 from skillwrapper.runs.archive.archive import ArchivedIteration, RunArchive

@@ -52,6 +52,11 @@ class RunLayout:
         return self.root / "corrections.jsonl"
 
     @property
+    def imported(self) -> Path:
+        """The model that a person has edited and imported last."""
+        return self.root / "imported.json"
+
+    @property
     def curve(self) -> Path:
         """How true the model was after each iteration."""
         return self.root / "curve.json"
