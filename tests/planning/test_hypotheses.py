@@ -12,9 +12,14 @@ from skillwrapper.perception.decoding.readings import ErrorRates
 from skillwrapper.perception.reading_model import KnownErrors
 from skillwrapper.planning.goals import parse_goal
 from skillwrapper.planning.hypotheses.beliefs import Beliefs, Evidence
-from skillwrapper.planning.hypotheses.doubtful_planner import DoubtfulPlanner, WantedReading
+from skillwrapper.planning.hypotheses.doubtful_planner import (
+    DoubtfulPlanner,
+    KnownScene,
+    WantedReading,
+)
 from skillwrapper.planning.hypotheses.possible_states import PossibleStates
 from skillwrapper.planning.hypotheses.settings import HypothesesSettings
+from skillwrapper.planning.hypotheses.state_filter import StateFilter
 from skillwrapper.symbols import AbstractModel
 
 ONLY_OPENS = AbstractModel(GARDEN, MODEL.predicates, (operator("Open", opens=True),))
@@ -121,3 +126,32 @@ def test_a_state_that_is_less_sure_comes_after_all_that_surer_ones_lead_to() -> 
 def _number(found: Beliefs, labels: Labels) -> int:
     possible = found._possible
     return int(np.flatnonzero((possible.labels == labels).all(axis=1))[0])
+
+
+def filtered(start: Labels) -> tuple[StateFilter, KnownScene]:
+    known = DoubtfulPlanner(MODEL, ACQUAINTANCE).known(SCENE)
+    assert known is not None
+    return StateFilter(known, start), known
+
+
+def test_a_filter_keeps_up_with_what_is_done() -> None:
+    now, known = filtered(state(0, 0))
+    wanted = known.goals(WantedReading(written=parse_goal("open(left)", SPACE)))
+    assert now.reached(wanted) < 0.1
+    now.ran(OPEN_LEFT, succeeded=True)
+    assert now.likeliest.tolist() == [1, 0]
+    assert now.reached(wanted) > 0.99
+
+
+def test_what_failed_speaks_against_what_was_read() -> None:
+    """What is open already does not open."""
+    now, _ = filtered(state(0, 0))
+    now.ran(OPEN_LEFT, succeeded=False)
+    assert now.likeliest.tolist() == [1, 0]
+
+
+def test_what_somebody_moves_is_believed_once_it_is_seen_often_enough() -> None:
+    now, _ = filtered(state(0, 0))
+    for _ in range(4):
+        now.look(state(1, 1))
+    assert now.likeliest.tolist() == [1, 1]

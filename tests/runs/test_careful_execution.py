@@ -5,27 +5,30 @@ from __future__ import annotations
 import json
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.starting import start_project
+from skillwrapper.planning.hypotheses.doubtful_planner import WantedReading
+from skillwrapper.runs.abstract_states import AbstractState
 from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.archive.layout import RunLayout
-from skillwrapper.runs.careful_execution import (
-    CarefulExecution,
-    Ending,
-    ExecutionReport,
-    ExecutionSettings,
-)
+from skillwrapper.runs.careful_execution import CarefulExecution
+from skillwrapper.runs.carrying_out import Ending, ExecutionReport, ExecutionSettings
+from skillwrapper.runs.doubtful_execution import DoubtfulExecution
 from skillwrapper.runs.execution_records import ExecutionRecord
 from skillwrapper.runs.launch import learn, learn_recorded
 from skillwrapper.runs.learned_model import LearnedModel
 from skillwrapper.world.episode import Outcome
 from skillwrapper.world.observation import Observation
+from skillwrapper.world.pictures import Look
 from skillwrapper.world.robot import RobotEnvironment
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance, parse_skill_instance
 
 GOAL = ("Open(arm, box)", "Pick(arm, green_cube)", "PutIn(arm, green_cube, box)", "Close(arm, box)")
@@ -190,6 +193,54 @@ def test_whatever_happens_it_ends_and_is_recorded(
     assert report.ending is ending
     assert said in report.reason
     assert events_of(tmp_path)[-1] == {"event": "ended", "ending": ending, "reason": report.reason}
+
+
+def carry_out_in_doubt(
+    run: Path, out: Path, environment: RobotEnvironment, misread: int = 0
+) -> ExecutionReport:
+    """As ``carry_out``, under doubt; the picture of a look, from 1, is read wrongly."""
+    with Misled.load(run) as learned:
+        wanted = find_domain(learned.settings.domain).make_environment()
+        wanted.reset(seed=0)
+        for text in GOAL:
+            assert wanted.execute(parse_skill_instance(text)).success
+        goal = WantedReading(learned.read(wanted.observe()).labels)
+        known = learned.doubts().known(environment.scene)
+        assert known is not None
+        learned.misread = misread
+        record, chosen = ExecutionRecord(RunLayout(out)), ExecutionSettings(replans=3)
+        return DoubtfulExecution(learned, known, environment, goal, record, chosen).run()
+
+
+class Misled(LearnedModel):
+    """Takes what the hand holds, in one picture, for nothing."""
+
+    misread = 0
+    looks = 0
+
+    def read(self, seen: Look, *, scene: Scene | str | None = None) -> AbstractState:
+        state = super().read(seen, scene=scene)
+        if not self.misread:
+            return state
+        self.looks += 1
+        if self.looks != self.misread:
+            return state
+        labels = np.where([len(a.terms) > 1 for a in state.space.atoms], 0, state.labels)
+        return replace(state, labels=labels.astype(np.int8))
+
+
+@pytest.mark.parametrize("misread", [0, 3])
+def test_what_is_misread_on_the_way_is_overruled(run: Path, tmp_path: Path, misread: int) -> None:
+    report = carry_out_in_doubt(run, tmp_path, Meddling(run), misread)
+    assert report.ending is Ending.REACHED
+    assert report.plans == 1
+    assert report.surprises == []
+
+
+def test_what_somebody_does_is_noticed_under_doubt(run: Path, tmp_path: Path) -> None:
+    report = carry_out_in_doubt(run, tmp_path, Meddling(run, 2, put_red_in))
+    assert report.ending in (Ending.REACHED, Ending.NO_PLAN, Ending.NOT_REACHED)
+    assert events_of(tmp_path)[-1]["event"] == "ended"
 
 
 def test_an_execution_is_an_episode_of_the_next_learn(run: Path, tmp_path: Path) -> None:

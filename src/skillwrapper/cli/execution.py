@@ -8,7 +8,14 @@ from typing import Annotated
 import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.cli.planning import GoalOption, GoalReading, RunArgument, read_goal
+from skillwrapper.cli.planning import (
+    GoalOption,
+    GoalReading,
+    RunArgument,
+    known_scene,
+    read_wanted,
+)
+from skillwrapper.cli.readings import ReadingsOption
 from skillwrapper.cli.ways_to_run import (
     ByHandOption,
     CameraOption,
@@ -20,13 +27,10 @@ from skillwrapper.errors import UnknownNameError
 from skillwrapper.planning.result import SkillPlan
 from skillwrapper.runs.abstract_states import AbstractState
 from skillwrapper.runs.archive import ArchivedIteration, RunArchive, reserved
-from skillwrapper.runs.careful_execution import (
-    CarefulExecution,
-    Ending,
-    ExecutionReport,
-    ExecutionSettings,
-)
+from skillwrapper.runs.careful_execution import CarefulExecution
+from skillwrapper.runs.carrying_out import Ending, Execution, ExecutionReport, ExecutionSettings
 from skillwrapper.runs.caveats import caveats
+from skillwrapper.runs.doubtful_execution import DoubtfulExecution
 from skillwrapper.runs.execution_records import ExecutionRecord
 from skillwrapper.runs.foresight import foresee
 from skillwrapper.runs.learned_model import LearnedModel
@@ -52,6 +56,7 @@ def execute(
         str | None, typer.Option(help="What is present; default: what the robot says.")
     ] = None,
     positive: GoalReading = False,
+    readings: ReadingsOption = None,
     prepare: Annotated[
         bool, typer.Option("--prepare", help="Let the robot prepare a start first.")
     ] = False,
@@ -77,10 +82,20 @@ def execute(
     ):
         is_reached = _test(environment, test)
         _begin(environment, scene, prepare, seed)
-        wanted = read_goal(learned, goal, environment.scene.name, positive)
         record = ExecutionRecord(archive.layout)
         confirm = _confirmation(learned, archive.latest(), yes)
-        carried = CarefulExecution(learned, environment, wanted, record, settings, confirm, _say)
+        wanted = read_wanted(learned, goal, environment.scene.name, positive)
+        known = known_scene(learned, environment.scene, readings)
+        carried: Execution
+        if known is not None:
+            carried = DoubtfulExecution(
+                learned, known, environment, wanted, record, settings, confirm, _say
+            )
+        else:
+            as_read = wanted.as_read(learned.space(environment.scene))
+            carried = CarefulExecution(
+                learned, environment, as_read, record, settings, confirm, _say
+            )
         report = carried.run()
         verdict = is_reached() if is_reached else None
         record.note("judged", test=test, reached=verdict)
@@ -139,7 +154,7 @@ def _words(report: ExecutionReport, test: str | None, verdict: bool | None) -> s
         return f"{decided}: so says the test '{test}' of the environment{reason}"
     match report.ending:
         case Ending.REACHED:
-            return "reached, as far as the model can tell"
+            return f"reached, as far as the model can tell{reason}"
         case Ending.NOT_REACHED:
             return f"not reached, as far as the model can tell{reason}"
         case Ending.NO_PLAN:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
-from skillwrapper.cli.planning import GoalReading, RunArgument, SceneOption, read_goal
+from skillwrapper.cli.planning import GoalReading, RunArgument, SceneOption, read_wanted
 from skillwrapper.errors import ConfigurationError, RefusedModelError
 from skillwrapper.files.writing import write_atomically
 from skillwrapper.planning.export import Dialect, Export
@@ -53,7 +53,7 @@ def export(
     with LearnedModel.load(run) as learned:
         if init and goal:
             start = learned.read(load_pictures(init), scene=scene)
-            wanted = read_goal(learned, goal, scene, positive)
+            wanted = read_wanted(learned, goal, scene, positive).as_read(start.space)
             for name in (name for name, value in start.items() if value is None):
                 messages().print(f"note: {name} cannot be told from the picture; written as false")
             exported = learned.export(to, start, wanted)

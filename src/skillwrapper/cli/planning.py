@@ -12,16 +12,19 @@ import typer
 
 from skillwrapper.cli.films import filmed
 from skillwrapper.cli.output import JsonFlag, messages, print_json, results
+from skillwrapper.cli.readings import Readings, ReadingsOption
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import GoalError
-from skillwrapper.planning.execution import ExecutionReport, attempt
+from skillwrapper.planning.execution import ExecutionReport
 from skillwrapper.planning.gif import save_gif
 from skillwrapper.planning.goals import Goal
+from skillwrapper.planning.hypotheses.doubtful_planner import KnownScene, WantedReading
 from skillwrapper.planning.result import PlanningResult, PlanningStatus
 from skillwrapper.redaction import without_secrets
 from skillwrapper.runs.learned_model import LearnedModel, is_picture_file
+from skillwrapper.runs.solving import AsRead, InDoubt, Way
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.pictures import load_pictures
+from skillwrapper.world.scenes import Scene
 
 RunArgument = Annotated[Path, typer.Argument(help="Folder of a run.")]
 GoalOption = Annotated[
@@ -63,7 +66,7 @@ def plan(
     """Find plans from a picture of the start to a goal."""
     with LearnedModel.load(run) as learned:
         start = learned.read(load_pictures(init), scene=scene)
-        wanted = read_goal(learned, goal, scene, positive)
+        wanted = read_wanted(learned, goal, scene, positive).as_read(learned.space(start.scene))
         found = learned.plan(start, wanted, plans=plans, time_limit=time_limit, keep_files=keep)
     if as_json:
         print_json(_describe(found))
@@ -84,6 +87,7 @@ def solve(
         typer.Option(help="Also write a video (.webp, .gif) of the last try, if it can be filmed."),
     ] = None,
     positive: GoalReading = False,
+    readings: ReadingsOption = None,
     plans: PlansOption = 10,
     time_limit: LimitOption = 30.0,
     as_json: JsonFlag = False,
@@ -95,26 +99,29 @@ def solve(
         closing(find_domain(learned.settings.domain).make_environment()) as environment,
     ):
         present = learned.domain.scene(scene)
-        wanted = read_goal(learned, goal, scene, positive)
+        wanted = read_wanted(learned, goal, scene, positive)
 
         def reset() -> Observation:
             return environment.reset(seed=init_seed, scene=present.name)
 
         start = learned.read(reset(), scene=present)
-        found = learned.plan(start, wanted, plans=plans, time_limit=time_limit)
-        with filmed(environment, video if found.plans else None) as film:
+        known = known_scene(learned, present, readings)
+        if known is not None:
+            beliefs = known.beliefs(known.likely(start.labels), known.goals(wanted))
+            way: Way = InDoubt(learned, present, beliefs)
+        else:
+            as_read = wanted.as_read(start.space)
+            planned = learned.plan(start, as_read, plans=plans, time_limit=time_limit)
+            way = AsRead(learned, present, planned, as_read)
+        with filmed(environment, video if way.has_plan else None) as film:
 
             def prepare() -> Observation:
                 if film is not None:
                     film.frames.clear()
                 return reset()
 
-            report = attempt(
-                environment,
-                prepare,
-                found.plans,
-                lambda: learned.read(environment.observe(), scene=present).satisfies(wanted),
-            )
+            solution = way.carry_out(environment, prepare)
+    found, report = solution.found, solution.report
     if report.attempts:
         save_gif(target, report.attempts[-1])
     if as_json:
@@ -127,29 +134,34 @@ def solve(
         raise typer.Exit(1)
 
 
-def read_goal(
+def read_wanted(
     learned: LearnedModel, parts: Sequence[str], scene: str | None, positive: bool
-) -> Goal:
+) -> WantedReading:
     """What the pictures and the expressions ask for, all together."""
     pictures = [part for part in parts if is_picture_file(part)]
     goals = [learned.goal(part, scene=scene) for part in parts if part not in pictures]
-    if pictures:
-        seen = load_pictures(pictures)
-        goals.append(learned.goal(seen, scene=scene, positive_only=positive))
-    return reduce(_both, goals)
+    read = learned.read(load_pictures(pictures), scene=scene).labels if pictures else None
+    written = reduce(Goal.together_with, goals) if goals else None
+    return WantedReading(read, written, positive)
 
 
-def _both(first: Goal, second: Goal) -> Goal:
-    """The goal that two goals hold.
+def known_scene(
+    learned: LearnedModel, scene: Scene, readings: Readings | None
+) -> KnownScene | None:
+    """What is known of a scene for hypotheses; None if readings are taken as they are.
 
-    Raises:
-        GoalError: if they contradict each other.
+    Says so where hypotheses are asked for, and the states of the scene cannot be told apart.
     """
-    pairs = (a | b for a in first.alternatives for b in second.alternatives)
-    possible = tuple(dict.fromkeys(x for x in pairs if len({y.atom for y in x}) == len(x)))
-    if not possible:
-        raise GoalError(f"goal: '{first}' and '{second}' cannot hold together; leave one out")
-    return Goal(possible)
+    if readings is not Readings.HYPOTHESES:
+        return None
+    known = learned.doubts().known(scene)
+    if known is None:
+        messages().print(
+            f"note: no states of the scene '{scene.name}' are known, or too many to tell apart; "
+            "what is read is taken as it is",
+            style="yellow",
+        )
+    return known
 
 
 def _describe(found: PlanningResult) -> dict[str, object]:

@@ -68,7 +68,11 @@ class Acquaintance:
         priors: Priors | None = None,
     ) -> Acquaintance:
         """From what was executed; pictures that were never read are read."""
-        return cls._from(chains_of(recorded), recorded.observations, truth, predicates, priors)
+        chains = chains_of(recorded)
+        decoding = _decoded(chains, recorded.observations, truth, predicates, priors)
+        rates = {predicate.name: rates for predicate, rates in decoding.rates.items()}
+        errors = KnownErrors(rates, decoding.dirty) if rates else NOTHING_KNOWN
+        return cls(errors, _familiar(chains, decoding))
 
     @classmethod
     def from_starts(
@@ -82,6 +86,8 @@ class Acquaintance:
     ) -> Acquaintance:
         """From what is seen after resets, several for each scene.
 
+        Of errors that tells too little: what is never true there, is never missed.
+
         Args:
             starts: what is seen.
             truth: reads it.
@@ -90,36 +96,32 @@ class Acquaintance:
             priors: what is believed of readings beforehand.
         """
         chains = tuple(chain_of_starts(s, len(o), restored=restored) for s, o in starts.items())
-        return cls._from(chains, lambda scene: starts[scene], truth, predicates, priors)
-
-    @classmethod
-    def _from(
-        cls,
-        chains: Sequence[Chain],
-        seen: _Seen,
-        truth: TruthSource,
-        predicates: Sequence[Predicate],
-        priors: Priors | None,
-    ) -> Acquaintance:
-        vocabulary, believed = tuple(predicates), priors or Priors()
-        spaces = [AtomSpace(vocabulary, chain.scene.objects) for chain in chains]
-        read = [
-            truth.labels(space, seen(chain.scene))
-            for space, chain in zip(spaces, chains, strict=True)
-        ]
-        decoding = decode(chains, vocabulary, read, believed)
-        familiar = {
-            chain.scene: _familiar(decoding.beliefs(place)) for place, chain in enumerate(chains)
-        }
-        return cls(_errors(decoding), familiar)
+        decoding = _decoded(chains, lambda scene: starts[scene], truth, predicates, priors)
+        return cls(familiar=_familiar(chains, decoding))
 
 
-def _errors(decoding: Decoding) -> KnownErrors:
-    rates = {predicate.name: rates for predicate, rates in decoding.rates.items()}
-    return KnownErrors(rates, decoding.dirty) if rates else NOTHING_KNOWN
+def _decoded(
+    chains: Sequence[Chain],
+    seen: _Seen,
+    truth: TruthSource,
+    predicates: Sequence[Predicate],
+    priors: Priors | None,
+) -> Decoding:
+    vocabulary = tuple(predicates)
+    read = [
+        truth.labels(AtomSpace(vocabulary, chain.scene.objects), seen(chain.scene))
+        for chain in chains
+    ]
+    return decode(chains, vocabulary, read, priors)
 
 
-def _familiar(believed: Floats) -> FamiliarStates:
+def _familiar(chains: Sequence[Chain], decoding: Decoding) -> Mapping[Scene, FamiliarStates]:
+    return {
+        chain.scene: _familiar_states(decoding.beliefs(place)) for place, chain in enumerate(chains)
+    }
+
+
+def _familiar_states(believed: Floats) -> FamiliarStates:
     """The states of the pictures of which least is in doubt; what is in doubt is taken both ways.
 
     Args:

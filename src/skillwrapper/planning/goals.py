@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from skillwrapper.errors import GoalError
 from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.planning.goal_formulas import alternatives
 from skillwrapper.planning.goal_reader import GoalReader
@@ -34,6 +35,18 @@ class Goal:
             all((state[space.column[x.atom]] == TRUE) == x.positive for x in literals)
             for literals in self.alternatives
         )
+
+    def together_with(self, other: Goal) -> Goal:
+        """The goal that both hold.
+
+        Raises:
+            GoalError: if they contradict each other.
+        """
+        pairs = (a | b for a in self.alternatives for b in other.alternatives)
+        possible = tuple(dict.fromkeys(x for x in pairs if len({y.atom for y in x}) == len(x)))
+        if not possible:
+            raise GoalError(f"goal: '{self}' and '{other}' cannot hold together; leave one out")
+        return Goal(possible)
 
     def __str__(self) -> str:
         return ", or ".join(" and ".join(map(str, sorted(a))) for a in self.alternatives)

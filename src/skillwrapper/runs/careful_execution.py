@@ -6,90 +6,33 @@ with what the model said; on a surprise the picture is taken again, and if it st
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from enum import StrEnum
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
 
-from skillwrapper.errors import EmergencyStopError, RobotError
 from skillwrapper.grounding import TRUE, UNKNOWN
 from skillwrapper.planning.goals import Goal
 from skillwrapper.planning.result import SkillPlan
-from skillwrapper.redaction import without_secrets
-from skillwrapper.robots.guarded import check_halted, execute_guarded
 from skillwrapper.runs.abstract_states import AbstractState
-from skillwrapper.runs.execution_records import ExecutionRecord, Surprise
+from skillwrapper.runs.carrying_out import (
+    Confirm,
+    Ending,
+    Execution,
+    ExecutionSettings,
+    Tell,
+    agree,
+    say_nothing,
+)
+from skillwrapper.runs.execution_records import ExecutionRecord
 from skillwrapper.runs.learned_model import LearnedModel
 from skillwrapper.symbols.predicates import Literal
 from skillwrapper.world.environment import Environment
-from skillwrapper.world.episode import Transition
 from skillwrapper.world.observation import Observation
 from skillwrapper.world.skills import SkillInstance
 
 _PLANS = 10
 """So many plans are looked at for one that runs no skill where it failed before."""
-
-
-class ExecutionSettings(BaseModel):
-    """How patient an execution is."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    replans: int = Field(
-        default=5, ge=0, description="how often to plan anew", json_schema_extra={"unit": "plans"}
-    )
-    skill_limit: float = Field(
-        default=300.0,
-        gt=0.0,
-        description="how long a skill may take",
-        json_schema_extra={"unit": "seconds"},
-    )
-    plan_limit: float = Field(
-        default=30.0,
-        gt=0.0,
-        description="how long planning may take",
-        json_schema_extra={"unit": "seconds"},
-    )
-
-
-class Ending(StrEnum):
-    """How an execution ended."""
-
-    REACHED = "reached"
-    """The goal holds by the labels of the last picture."""
-    NOT_REACHED = "not reached"
-    """The labels say so, though the plan was carried out, and nothing may be planned anew."""
-    NO_PLAN = "no plan"
-    """The model knows no way from what is seen."""
-    DECLINED = "declined"
-    """Nobody agreed to the plan."""
-    STOPPED = "stopped"
-    """By the emergency stop."""
-    BROKEN = "broken"
-    """The robot hung or failed."""
-
-
-@dataclass
-class ExecutionReport:
-    """What came of an execution.
-
-    Attributes:
-        ending: how it ended.
-        reason: in words; empty if there is nothing to add.
-        executed: the skills that were run, each with its success.
-        surprises: in order of time.
-        plans: how many plans were made.
-        last: what was seen last.
-    """
-
-    ending: Ending = Ending.NO_PLAN
-    reason: str = ""
-    executed: list[tuple[SkillInstance, bool]] = field(default_factory=list)
-    surprises: list[Surprise] = field(default_factory=list)
-    plans: int = 0
-    last: Observation | None = None
 
 
 @dataclass(frozen=True)
@@ -101,21 +44,7 @@ class _Seen:
     differences: tuple[Literal, ...] = ()
 
 
-Confirm = Callable[[SkillPlan, AbstractState], bool]
-"""Whether a plan may be carried out from a state; asked before the first skill only."""
-
-Tell = Callable[[str], object]
-
-
-def _agree(plan: SkillPlan, state: AbstractState) -> bool:
-    return True
-
-
-def _say_nothing(text: str) -> None:
-    return None
-
-
-class CarefulExecution:
+class CarefulExecution(Execution):
     """Brings about a goal, looking before and after each skill.
 
     Args:
@@ -135,33 +64,12 @@ class CarefulExecution:
         goal: Goal,
         record: ExecutionRecord,
         settings: ExecutionSettings | None = None,
-        confirm: Confirm = _agree,
-        tell: Tell = _say_nothing,
+        confirm: Confirm = agree,
+        tell: Tell = say_nothing,
     ) -> None:
-        self._learned, self._environment, self._goal = learned, environment, goal
-        self._record, self._confirm, self._tell = record, confirm, tell
-        self._settings = settings or ExecutionSettings()
+        super().__init__(learned, environment, record, settings, confirm, tell)
+        self._goal = goal
         self._failed: set[tuple[bytes, SkillInstance]] = set()
-        self.report = ExecutionReport()
-
-    def run(self) -> ExecutionReport:
-        """Carry it out; whatever happens is recorded, and ends here.
-
-        Raises:
-            ProviderError: if a model does not answer.
-            UserError: if the record cannot be written.
-        """
-        try:
-            self._carry_out()
-        except EmergencyStopError as error:
-            self._end(Ending.STOPPED, str(error))
-        except RobotError as error:
-            self._end(Ending.BROKEN, str(error))
-        except BaseException as error:
-            self._record.note("ended", ending="interrupted", reason=type(error).__name__)
-            raise
-        self._record.note("ended", ending=self.report.ending, reason=self.report.reason)
-        return self.report
 
     def _carry_out(self) -> None:
         now = self._first_look()
@@ -186,14 +94,7 @@ class CarefulExecution:
             cause = repeats if found.plans else found.cause or str(found.status)
             self._end(Ending.NO_PLAN, cause)
             return None
-        self.report.plans += 1
-        self._record.plan(plans[0])
-        if self.report.plans > 1:
-            self._tell("planned anew: " + ", ".join(map(str, plans[0])))
-        elif not self._confirm(plans[0], state):
-            self._end(Ending.DECLINED)
-            return None
-        return plans[0]
+        return plans[0] if self._begin(plans[0], state) else None
 
     def _repeats_failure(self, plan: SkillPlan, state: AbstractState) -> bool:
         """Whether a plan leads to a state in which its next skill failed before."""
@@ -208,31 +109,18 @@ class CarefulExecution:
         for instance in plan:
             now = self._settle(now.state, self._look())
             if now.differences:
-                self._surprise("moved", None, now)
+                self._surprise("moved", None, now.differences)
                 return now
-            outcome = execute_guarded(self._environment, instance, self._settings.skill_limit)
-            after = outcome.observation
-            done = Transition(now.observation, instance, outcome.success, after, outcome.changed)
-            self._note_executed(now.state, done, without_secrets(outcome.message))
+            outcome = self._execute(now.observation, instance)
+            if not outcome.success:
+                self._failed.add((now.state.labels.tobytes(), instance))
             expected = self._learned.expected(now.state, instance).state
-            now = self._settle(expected if outcome.success else now.state, after)
+            now = self._settle(expected if outcome.success else now.state, outcome.observation)
             if now.differences or not outcome.success:
-                self._surprise("effect" if outcome.success else "failed", instance, now)
+                kind = "effect" if outcome.success else "failed"
+                self._surprise(kind, instance, now.differences)
                 return now
         return now
-
-    def _note_executed(self, state: AbstractState, done: Transition, message: str) -> None:
-        self._record.transition(state.scene, done, message)
-        self.report.executed.append((done.instance, done.success))
-        how = "done" if done.success else f"failed{f': {message}' if message else ''}"
-        self._tell(f"  {done.instance}: {how}")
-        if not done.success:
-            self._failed.add((state.labels.tobytes(), done.instance))
-
-    def _look(self) -> Observation:
-        check_halted(self._environment)
-        self.report.last = self._environment.observe()
-        return self.report.last
 
     def _first_look(self) -> _Seen:
         seen = self._look()
@@ -258,12 +146,3 @@ class CarefulExecution:
             Literal(atoms[i], bool(labels[i] == TRUE)) for i in np.flatnonzero(known)
         )
         return _Seen(seen, AbstractState(expected.scene, read.space, labels), differences)
-
-    def _surprise(self, kind: str, instance: SkillInstance | None, now: _Seen) -> None:
-        surprise = Surprise(len(self.report.executed), kind, instance, now.differences)
-        self.report.surprises.append(surprise)
-        self._record.surprise(surprise)
-        self._tell(f"surprise: {surprise}")
-
-    def _end(self, ending: Ending, reason: str = "") -> None:
-        self.report.ending, self.report.reason = ending, without_secrets(reason)

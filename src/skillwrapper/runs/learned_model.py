@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,10 +12,13 @@ from typing import Self
 
 import numpy as np
 
-from skillwrapper.grounding import UNKNOWN, GroundModel, Labels
+from skillwrapper.grounding import UNKNOWN, AtomSpace, GroundModel, Labels
+from skillwrapper.perception.acquaintance import Acquaintance
 from skillwrapper.perception.truth_table import TruthTable
 from skillwrapper.planning.export import Dialect, Export, Task, export
 from skillwrapper.planning.goals import Goal, goal_from_state, parse_goal
+from skillwrapper.planning.hypotheses.doubtful_planner import DoubtfulPlanner
+from skillwrapper.planning.hypotheses.settings import HypothesesSettings
 from skillwrapper.planning.planner import Planner, PlannerSettings
 from skillwrapper.planning.result import PlanningResult
 from skillwrapper.runs.abstract_states import AbstractState
@@ -22,8 +26,10 @@ from skillwrapper.runs.archive import RunArchive
 from skillwrapper.runs.model_sessions import CallCounter, open_session
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import AbstractModel, Operator, Predicate
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.vlm.protocol import VisionLanguageModel
 from skillwrapper.world.domain import Domain
+from skillwrapper.world.episode import Episode
 from skillwrapper.world.pictures import Look, observation_of
 from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance, parse_skill_instance
@@ -51,6 +57,7 @@ class LearnedModel:
         settings: of the run that learned it: which models read pictures.
         reader: answers in place of these models; None to open them when a picture is read.
         store: file of a call store that keeps what is asked; None to keep nothing.
+        episodes: tells what it was learned from; None if that is not known.
     """
 
     def __init__(
@@ -60,10 +67,12 @@ class LearnedModel:
         *,
         reader: VisionLanguageModel | None = None,
         store: Path | None = None,
+        episodes: Callable[[], Sequence[Episode]] | None = None,
     ) -> None:
         self.model = model
         self.settings = settings
         self._reader, self._store = reader, store
+        self._episodes = episodes or tuple
         self._resources = ExitStack()
 
     @classmethod
@@ -79,7 +88,13 @@ class LearnedModel:
         """
         archive = RunArchive.open(Path(run))
         learned = archive.latest().model
-        return cls(learned, archive.settings(), reader=model, store=archive.layout.calls)
+        return cls(
+            learned,
+            archive.settings(),
+            reader=model,
+            store=archive.layout.calls,
+            episodes=archive.episodes,
+        )
 
     def __enter__(self) -> Self:
         return self
@@ -189,6 +204,31 @@ class LearnedModel:
         planner = Planner(PlannerSettings(plans=plans, time_limit=time_limit))
         objects = state.scene.objects
         return planner.plan(self.model, objects, state.labels, wanted, keep_files=keep_files)
+
+    def space(self, scene: Scene | str | None = None) -> AtomSpace:
+        """The ground atoms of a scene.
+
+        Args:
+            scene: as in ``read``.
+        """
+        return self._ground(self._scene(scene)).space
+
+    def doubts(self, settings: HypothesesSettings | None = None) -> DoubtfulPlanner:
+        """Plans under doubt, with what the record tells of readings and of states.
+
+        Pictures that it was learned from are read; what was asked before is not asked again.
+
+        Args:
+            settings: how many hypotheses are kept.
+
+        Raises:
+            UserError: if the record is damaged.
+            ProviderError: if a model does not answer.
+        """
+        priors = self.settings.perception.decoding
+        recorded = RecordedTransitions.of(self.domain, self._episodes())
+        acquaintance = Acquaintance.from_record(recorded, self._reading[0], self.predicates, priors)
+        return DoubtfulPlanner(self.model, acquaintance, settings or HypothesesSettings(), priors)
 
     def export(
         self,

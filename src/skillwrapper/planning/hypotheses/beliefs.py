@@ -88,6 +88,7 @@ class Beliefs:
         self._nats: Floats = np.array([nats for nats, _ in kept])
         self._plans = tuple(possible.plan(h.start, h.goals) for h in self.hypotheses)
         self._tried: set[SkillPlan] = set()
+        self._latest: SkillPlan = ()
 
     @property
     def probabilities(self) -> Floats:
@@ -110,9 +111,46 @@ class Beliefs:
     def next_plan(self) -> SkillPlan | None:
         """The untried plan that most likely succeeds; None if none is likely enough."""
         candidates = self._candidates()
-        chances = [self._chance(plan) for plan in candidates]
+        chances = [self.chance(plan) for plan in candidates]
         best = int(np.argmax(chances)) if chances else -1
-        return candidates[best] if best >= 0 and chances[best] > self._settings.least else None
+        if best < 0 or chances[best] <= self._settings.least:
+            return None
+        self._latest = candidates[best]
+        return self._latest
+
+    def is_reached(self, read: Labels) -> bool:
+        """Whether the goal is reached by the latest plan, all of whose skills succeeded.
+
+        That is, no other plan is likelier to succeed than it is that this one did.
+
+        Args:
+            read: what is read (atoms,) of the picture after it.
+        """
+        likely = self._readings.log_likelihood(self._possible.labels, read)
+        ends = [
+            (course.states or (hypothesis.start,))[-1]
+            for hypothesis, course in self._courses(self._latest)
+        ]
+        fails = np.array([c.fails for _, c in self._courses(self._latest)], dtype=bool)
+        nats = self._nats + likely[ends] + np.where(fails, math.log(self._settings.surprise), 0.0)
+        weights = np.exp(nats - nats.max(initial=-math.inf))
+        reached = [end in h.goals for end, h in zip(ends, self.hypotheses, strict=True)]
+        chance = float(weights[np.array(reached) & ~fails].sum() / weights.sum())
+        others = (self.chance(plan) for plan in self._candidates() if plan != self._latest)
+        return chance > max(others, default=0.0)
+
+    @property
+    def best_chance(self) -> float:
+        """The probability that the likeliest untried plan succeeds; 0 if there is none."""
+        return max(map(self.chance, self._candidates()), default=0.0)
+
+    def chance(self, plan: SkillPlan) -> float:
+        """The probability that a plan succeeds, over all hypotheses."""
+        succeeds = [
+            not course.fails and (course.states or (hypothesis.start,))[-1] in hypothesis.goals
+            for hypothesis, course in self._courses(plan)
+        ]
+        return float(self.probabilities[np.array(succeeds, dtype=bool)].sum())
 
     def learn(self, evidence: Evidence) -> None:
         """Take into account how a plan went wrong."""
@@ -134,14 +172,6 @@ class Beliefs:
         plans = dict.fromkeys(self._plans[number] for number in order)
         untried = [plan for plan in plans if plan is not None and plan not in self._tried]
         return untried[: self._settings.states]
-
-    def _chance(self, plan: SkillPlan) -> float:
-        """The probability that a plan succeeds, over all hypotheses."""
-        succeeds = [
-            not course.fails and (course.states or (hypothesis.start,))[-1] in hypothesis.goals
-            for hypothesis, course in self._courses(plan)
-        ]
-        return float(self.probabilities[np.array(succeeds, dtype=bool)].sum())
 
     def _courses(self, plan: SkillPlan) -> Iterator[tuple[Hypothesis, Course]]:
         courses: dict[int, Course] = {}

@@ -7,11 +7,12 @@ from functools import cached_property
 
 import numpy as np
 
-from skillwrapper.grounding import TRUE, GroundModel, Labels
+from skillwrapper.grounding import TRUE, AtomSpace, GroundModel, Labels
 from skillwrapper.perception.acquaintance import Acquaintance
+from skillwrapper.perception.decoding.odds import Floats
 from skillwrapper.perception.decoding.priors import Priors
 from skillwrapper.perception.reading_model import ReadingModel
-from skillwrapper.planning.goals import Goal
+from skillwrapper.planning.goals import Goal, goal_from_state
 from skillwrapper.planning.hypotheses.beliefs import Beliefs, GoalCandidates, likeliest
 from skillwrapper.planning.hypotheses.possible_states import PossibleStates
 from skillwrapper.planning.hypotheses.settings import HypothesesSettings
@@ -32,6 +33,19 @@ class WantedReading:
     read: Labels | None = None
     written: Goal | None = None
     positive_only: bool = False
+
+    def as_read(self, space: AtomSpace) -> Goal:
+        """The goal as it was read, without a doubt.
+
+        Raises:
+            GoalError: if the picture shows what contradicts what is written.
+        """
+        seen = (
+            goal_from_state(space, self.read, positive_only=self.positive_only)
+            if self.read is not None
+            else Goal.all_of(())
+        )
+        return seen if self.written is None else seen.together_with(self.written)
 
 
 @dataclass(frozen=True)
@@ -61,19 +75,17 @@ class DoubtfulPlanner:
         Returns:
             None where the states of the scene are unknown, or too many to tell apart.
         """
-        known = self._known(scene)
+        known = self.known(scene)
         if known is None:
             return None
-        nats = known.possible.nats + known.readings.log_likelihood(known.possible.labels, start)
-        goals = known.goals(goal, self.settings)
-        return Beliefs(known.possible, known.readings, nats, goals, self.settings)
+        return known.beliefs(known.likely(start), known.goals(goal))
 
-    @cached_property
-    def _scenes(self) -> dict[Scene, _KnownScene | None]:
-        return {}
+    def known(self, scene: Scene) -> KnownScene | None:
+        """What is known of a scene; found out when it is first asked for.
 
-    def _known(self, scene: Scene) -> _KnownScene | None:
-        """What is known of a scene; found out when it is first asked for."""
+        Returns:
+            None where the states of the scene are unknown, or too many to tell apart.
+        """
         if scene not in self._scenes:
             ground = GroundModel.of(self.model, scene.objects)
             familiar = self.acquaintance.familiar.get(scene)
@@ -83,25 +95,54 @@ class DoubtfulPlanner:
                 else None
             )
             readings = ReadingModel.of(ground.space, self.priors, self.acquaintance.errors)
-            known = _KnownScene(ground, possible, readings) if possible is not None else None
-            self._scenes[scene] = known
+            self._scenes[scene] = (
+                KnownScene(ground, possible, readings, self.settings)
+                if possible is not None
+                else None
+            )
         return self._scenes[scene]
+
+    @cached_property
+    def _scenes(self) -> dict[Scene, KnownScene | None]:
+        return {}
 
 
 @dataclass(frozen=True, eq=False)
-class _KnownScene:
+class KnownScene:
+    """A scene whose states can be told apart.
+
+    Attributes:
+        ground: the model over its objects.
+        possible: its states.
+        readings: what readings of them are worth.
+        settings: how many hypotheses are kept.
+    """
+
     ground: GroundModel
     possible: PossibleStates
     readings: ReadingModel
+    settings: HypothesesSettings
 
-    def goals(self, wanted: WantedReading, settings: HypothesesSettings) -> GoalCandidates:
+    def beliefs(self, start: Floats, goals: GoalCandidates) -> Beliefs:
+        """Hypotheses.
+
+        Args:
+            start: how likely each state (states,) is the start, in nats.
+            goals: what may be wanted.
+        """
+        return Beliefs(self.possible, self.readings, start, goals, self.settings)
+
+    def likely(self, read: Labels) -> Floats:
+        """How likely each state (states,) is seen in a picture that is read so, in nats."""
+        return self.possible.nats + self.readings.log_likelihood(self.possible.labels, read)
+
+    def goals(self, wanted: WantedReading) -> GoalCandidates:
         """The likeliest sets of states that may be wanted; one for certain if none is shown."""
         allowed = self._allowed(wanted.written)
         if wanted.read is None:
             return GoalCandidates((frozenset(allowed),), np.zeros(1))
-        nats = self.readings.log_likelihood(self.possible.labels[allowed], wanted.read)
-        nats += self.possible.nats[allowed]
-        best = likeliest(nats, settings.states)
+        nats = self.likely(wanted.read)[allowed]
+        best = likeliest(nats, self.settings.states)
         sets = (self._like(allowed[place], allowed, wanted.positive_only) for place in best)
         return GoalCandidates(tuple(sets), nats[best])
 
