@@ -15,9 +15,9 @@ from pathlib import Path
 
 from skillwrapper.action_models.learner import ActionModelLearner
 from skillwrapper.action_models.printing import print_model
+from skillwrapper.action_models.reading import read_steps
 from skillwrapper.action_models.settings import ActionModelSettings
 from skillwrapper.action_models.skeleton_files import read_skeleton
-from skillwrapper.action_models.trace_files import read_trace
 
 
 @dataclass
@@ -43,6 +43,6 @@ class SkillWrapper:
             UserError: if a file cannot be read or does not fit the domain.
         """
         learner = ActionModelLearner(read_skeleton(Path(domain_path)), self.settings)
-        for path in trajectory_paths:
-            learner.add(read_trace(Path(path), learner.skeleton, failures=self.failures))
+        paths = [Path(path) for path in trajectory_paths]
+        learner.add(read_steps(paths, learner.skeleton, failures=self.failures))
         return print_model(learner.learn())

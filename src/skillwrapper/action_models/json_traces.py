@@ -5,35 +5,47 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from skillwrapper.action_models.partial_traces import (
+    Attempt,
+    Evidence,
+    PartialState,
+    TraceBuilder,
+)
 from skillwrapper.action_models.skeleton import DomainSkeleton
-from skillwrapper.action_models.steps import State, Step, check_atoms, check_names, check_step
+from skillwrapper.action_models.steps import State, check_atoms, check_attempt, check_names
 from skillwrapper.errors import ConfigurationError, SymbolError
 from skillwrapper.files.json_documents import read_entries
 from skillwrapper.symbols.predicates import parse_atom
 from skillwrapper.transitions.entries import TransitionEntry
 
-_SURE = 0.5
+_EVEN = 0.5
 
 
-def read_json_trace(path: Path, skeleton: DomainSkeleton) -> Iterator[Step]:
+def read_json_trace(path: Path, skeleton: DomainSkeleton) -> Iterator[Evidence]:
     """The steps of a file; empty lines do not count.
 
     Args:
-        path: the file (docs/operators.md); of an atom with a probability the likelier counts.
+        path: the file (docs/operators.md). Of an atom with a probability the likelier counts; of
+            what a map does not name, or says null of, nothing is known.
         skeleton: the domain; PDDL does not tell capital letters from small ones.
 
     Raises:
         UserError: if the file or a line cannot be used; names file and line.
     """
     for where, entry in read_entries(path, TransitionEntry):
-        step = _step(entry, where)
-        check_step(skeleton, step)
-        for state in (step.before, step.after):
-            check_atoms(skeleton, state, where)
-        yield step
+        arguments = tuple(name.lower() for name in entry.arguments)
+        attempt = Attempt(entry.skill.lower(), arguments, entry.success, where)
+        check_attempt(skeleton, attempt.action, attempt.arguments, where)
+        before, after = _states(entry, where)
+        for state in (before, after):
+            check_atoms(skeleton, state.atoms, where)
+        builder = TraceBuilder()
+        builder.state(before)
+        builder.attempt(attempt)
+        yield from builder.state(after) or builder.end()
 
 
-def _step(entry: TransitionEntry, where: str) -> Step:
+def _states(entry: TransitionEntry, where: str) -> tuple[PartialState, PartialState]:
     before = _state(entry.before, where)
     unchanged = not entry.success or entry.changed is False
     if entry.after is None and not unchanged:
@@ -41,14 +53,20 @@ def _step(entry: TransitionEntry, where: str) -> Step:
             f"{where}: expected a value for 'after', got none; it can be left out only of "
             "failures, and if 'changed' is false"
         )
-    after = before if entry.after is None else _state(entry.after, where)
-    arguments = tuple(name.lower() for name in entry.arguments)
-    return Step(entry.skill.lower(), arguments, entry.success, before, after, where)
+    return before, before if entry.after is None else _state(entry.after, where)
 
 
-def _state(atoms: list[str] | Mapping[str, float | None], where: str) -> State:
-    if isinstance(atoms, Mapping):
-        atoms = [atom for atom, sure in atoms.items() if sure is not None and sure > _SURE]
+def _state(atoms: list[str] | Mapping[str, float | None], where: str) -> PartialState:
+    if not isinstance(atoms, Mapping):
+        return PartialState(_atoms(atoms, where), None)
+    known = {atom: sure for atom, sure in atoms.items() if sure is not None}
+    return PartialState(
+        _atoms([atom for atom, sure in known.items() if sure > _EVEN], where),
+        _atoms([atom for atom, sure in known.items() if sure < _EVEN], where),
+    )
+
+
+def _atoms(atoms: list[str], where: str) -> State:
     try:
         parsed = [parse_atom(atom.lower()) for atom in atoms]
     except SymbolError as error:

@@ -51,6 +51,8 @@ class ActionModel:
         unexplained: how many of these changed something that is not about the arguments; and, of
             those that look different, failed although everything that ever held was true, or ended
             otherwise than the effects say.
+        undecided: of what no state shows whether the action changes it: no effect is said, and
+            there may be one; sorted. Only where states were missing.
     """
 
     action: Schema
@@ -59,6 +61,7 @@ class ActionModel:
     refuted: tuple[Condition, ...] = ()
     steps: int = 0
     unexplained: int = 0
+    undecided: tuple[LiftedAtom, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -69,14 +69,20 @@ def find_preconditions(
 
 
 def _candidates(views: ActionViews, table: ViewTable) -> tuple[list[Condition], Bits]:
-    """All literals, positive ones first, and whether views violate them (views, literals)."""
+    """All literals, positive ones first, and whether views violate them (views, literals).
+
+    Of what is unknown, a success violates nothing, and a failure may have violated everything.
+    """
     names = [p.name for p in views.action.parameters]
     different = [LiftedAtom(_EQUAL, (names[i], names[j])) for i, j in views.pairs]
     conditions = [
         *(Condition(atom) for atom in views.atoms),
         *(Condition(atom, holds=False) for atom in (*views.atoms, *different)),
     ]
-    return conditions, np.hstack([~table.before, table.before, table.equal])
+    done = table.success[:, np.newaxis]
+    lacking = np.where(done, table.false_before, ~table.before)
+    present = np.where(done, table.before, ~table.false_before)
+    return conditions, np.hstack([lacking, present, table.equal])
 
 
 def _announced(
@@ -138,7 +144,12 @@ def _redundant(
     likelihood = _Likelihood(views, table, background.dynamic)
 
     def others(suspect: Condition) -> list[Condition]:
-        return [c for c in always if c not in suspects or likelihood.is_likelier(c, suspect)]
+        return [
+            c
+            for c in always
+            if likelihood.may_imply(c, suspect)
+            and (c not in suspects or likelihood.is_likelier(c, suspect))
+        ]
 
     return [s for s in suspects if makes_no_difference(s, others(s), views.action, seen)]
 
@@ -147,9 +158,8 @@ class _Likelihood:
     """Which of two literals, of which one follows from the other, is likelier meant.
 
     What always holds together cannot be told apart, so mostly both are kept. But what is negative
-    is given up for what is positive, what the action leaves alone for what it deletes, what never
-    changes for what does, and what names the action's parameters out of order for the same
-    predicate with parameters in order.
+    is given up for what is positive, what the action leaves alone for what it deletes, and what
+    names parameters out of order for the same predicate with these parameters in order.
 
     Args:
         views: the action.
@@ -159,19 +169,37 @@ class _Likelihood:
 
     def __init__(self, views: ActionViews, table: ViewTable, dynamic: frozenset[str]) -> None:
         self._action, self._dynamic = views.action, dynamic
-        gone = some((table.before & ~table.after)[table.success])
+        gone = some((table.before & table.false_after)[table.success])
         self._deleted = {a for a, own in zip(views.atoms, gone, strict=True) if own}
 
     def is_likelier(self, first: Condition, second: Condition) -> bool:
         """Whether the first is likelier than the second; mostly neither is."""
         one, other = self._rank(first), self._rank(second)
-        if one != other or first.atom.predicate != second.atom.predicate:
+        if one != other or not _same_words(first, second):
             return one < other
         return _disorder(first, self._action) < _disorder(second, self._action)
 
+    def may_imply(self, first: Condition, second: Condition) -> bool:
+        """Whether it is more than chance if the second follows from the first.
+
+        What never changes was put into the problems, and no action keeps it so: if it follows from
+        what does change, other problems may differ.
+        """
+        return not second.holds or self._is_dynamic(second) or not self._is_dynamic(first)
+
+    def _is_dynamic(self, condition: Condition) -> bool:
+        return condition.atom.predicate in self._dynamic
+
     def _rank(self, condition: Condition) -> tuple[bool, bool, bool]:
-        static = condition.atom.predicate not in self._dynamic
-        return not condition.holds, condition.atom not in self._deleted, static
+        deleted = condition.atom in self._deleted
+        return not condition.holds, not deleted, not self._is_dynamic(condition)
+
+
+def _same_words(first: Condition, second: Condition) -> bool:
+    """Whether two literals differ in the order of terms at most."""
+    return first.atom.predicate == second.atom.predicate and sorted(first.atom.terms) == sorted(
+        second.atom.terms
+    )
 
 
 def _disorder(condition: Condition, action: Schema) -> int:

@@ -36,17 +36,19 @@ class Step:
     where: str = ""
 
 
-def check_step(skeleton: DomainSkeleton, step: Step) -> None:
+def check_attempt(
+    skeleton: DomainSkeleton, name: str, arguments: tuple[str, ...], where: str
+) -> None:
     """Raise ``UserError`` if a domain has no such action with so many names as arguments."""
-    action = skeleton.actions.get(step.action)
+    action = skeleton.actions.get(name)
     if action is None:
-        raise UnknownNameError("action", step.action, skeleton.actions, step.where)
-    if len(step.arguments) != len(action.parameters):
+        raise UnknownNameError("action", name, skeleton.actions, where)
+    if len(arguments) != len(action.parameters):
         raise FileError(
-            f"{step.where}: expected {len(action.parameters)} arguments of '{step.action}', "
-            f"got {len(step.arguments)}"
+            f"{where}: expected {len(action.parameters)} arguments of '{name}', "
+            f"got {len(arguments)}"
         )
-    check_names(step.arguments, step.where)
+    check_names(arguments, where)
 
 
 def check_names(names: Iterable[str], where: str) -> None:

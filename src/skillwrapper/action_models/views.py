@@ -8,7 +8,7 @@ a million transitions are a few hundred views.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -23,8 +23,14 @@ _REMEMBERED = 100_000
 
 Bits = NDArray[np.bool_]
 
+UNKNOWN_BIT = 2
+"""What views hold of an atom is 0 for false, 1 for true, or this."""
+
 _Roles = tuple[str, ...]
 """For every argument the constant that it is, or the first parameter that is the same object."""
+
+View = tuple[bytes, bytes, bool, _Roles]
+"""What the atoms were before and after, whether the action worked, and what its arguments are."""
 
 
 def some(seen: Bits) -> Bits:
@@ -40,6 +46,8 @@ class ViewTable:
     Attributes:
         before: what was true before (views, atoms).
         after: what was true after (views, atoms).
+        false_before: what was false before; neither is so of what is unknown (views, atoms).
+        false_after: what was false after (views, atoms).
         success: whether the action was applicable (views,).
         equal: whether two parameters stood for one object (views, pairs of parameters).
         same: for every view the number (views, atoms) of the first atom that says the same:
@@ -48,6 +56,8 @@ class ViewTable:
 
     before: Bits
     after: Bits
+    false_before: Bits
+    false_after: Bits
     success: Bits
     equal: Bits
     same: NDArray[np.intp]
@@ -85,7 +95,7 @@ class ActionViews:
         self.steps = 0
         self.unexplained = 0
         self._constants = frozenset(c.name for c in skeleton.constants)
-        self._views: dict[tuple[bytes, bytes, bool, _Roles], None] = {}
+        self._views: dict[View, None] = {}
         self._ground = lru_cache(_REMEMBERED)(self._ground_anew)
 
     def add(self, step: Step) -> None:
@@ -99,30 +109,43 @@ class ActionViews:
         self.steps += 1
         self._views[before, after, step.success, roles] = None
 
+    def spell(self, arguments: tuple[str, ...]) -> tuple[str, ...]:
+        """The ground atoms that ``atoms`` are with certain arguments, in their order."""
+        return self._ground(arguments)[0]
+
+    def view(self, arguments: tuple[str, ...], before: bytes, after: bytes, success: bool) -> View:
+        """A view of whose atoms some are unknown; ``table`` takes it."""
+        return before, after, success, self._ground(arguments)[2]
+
     def seen(self, table: ViewTable) -> frozenset[str]:
         """The predicates of which anything was true in a view."""
         return self._predicates(some(table.before) | some(table.after))
 
     def changed(self, table: ViewTable) -> frozenset[str]:
         """The predicates of which anything changed in a view."""
-        return self._predicates(some(table.before ^ table.after))
+        rose, fell = table.false_before & table.after, table.before & table.false_after
+        return self._predicates(some(rose | fell))
 
     def _predicates(self, chosen: Bits) -> frozenset[str]:
         return frozenset(a.predicate for a, own in zip(self.atoms, chosen, strict=True) if own)
 
-    def table(self) -> ViewTable:
-        """All views so far."""
-        views, size = list(self._views), len(self.atoms)
+    def table(self, more: Iterable[View] = ()) -> ViewTable:
+        """All views so far, and more of this action."""
+        views, size = list({**self._views, **dict.fromkeys(more)}), len(self.atoms)
 
-        def bits(column: int) -> Bits:
+        def values(column: int) -> NDArray[np.uint8]:
             joined = b"".join(view[column] for view in views)  # type: ignore[misc]
-            return np.frombuffer(joined, dtype=np.uint8).reshape(len(views), size).astype(bool)
+            return np.frombuffer(joined, dtype=np.uint8).reshape(len(views), size)
+
+        before, after = values(0), values(1)
 
         same = [self._same(view[3]) for view in views]
         equal = [[view[3][i] == view[3][j] for i, j in self.pairs] for view in views]
         return ViewTable(
-            bits(0),
-            bits(1),
+            before == 1,
+            after == 1,
+            before == 0,
+            after == 0,
             np.array([view[2] for view in views], dtype=bool),
             np.array(equal, dtype=bool).reshape(len(views), len(self.pairs)),
             np.array(same, dtype=np.intp).reshape(len(views), size),

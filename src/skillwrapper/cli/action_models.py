@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
@@ -28,20 +29,37 @@ class Negatives(StrEnum):
     ALL = "all"
 
 
+@dataclass(frozen=True)
+class TraceOptions:
+    """What may be said of traces for a PDDL domain.
+
+    Attributes:
+        failures: whether what leaves the state as it was failed.
+        partial: whether states say all that is known, not all that is true.
+        problems: what plans start from and lead to.
+        negatives: which negative preconditions; None for the default.
+    """
+
+    failures: bool = False
+    partial: bool = False
+    problems: tuple[Path, ...] = ()
+    negatives: Negatives | None = None
+
+
 def learn_from_traces(
-    traces: Sequence[Path],
-    domain: Path,
-    out: Path,
-    failures: bool,
-    negatives: Negatives | None,
-    *,
-    as_json: bool,
+    traces: Sequence[Path], domain: Path, out: Path, options: TraceOptions, *, as_json: bool
 ) -> None:
     """Learn a PDDL domain from traces, under its own names of actions and parameters."""
-    given = {} if negatives is None else {"negatives": negatives.value}
+    given = {} if options.negatives is None else {"negatives": options.negatives.value}
     settings = ActionModelSettings.model_validate(given)
     skeleton = read_skeleton(domain)
-    steps = read_steps(traces, skeleton, failures=failures)
+    steps = read_steps(
+        traces,
+        skeleton,
+        failures=options.failures,
+        partial=options.partial,
+        problems=options.problems,
+    )
     first = next(steps, None)
     if first is None:
         raise FileError(f"{traces[0]}: expected at least one action between two states, got none")
@@ -70,6 +88,7 @@ def _figures_of(model: ActionModel) -> dict[str, Any]:
             {"change": str(e.change), "when": [str(c) for c in e.when]} for e in model.effects
         ],
         "unexplained": model.unexplained,
+        "undecided": [str(atom) for atom in model.undecided],
     }
 
 
@@ -86,6 +105,9 @@ def _print(model: DomainModel, out: Path) -> None:
         )
         if action.unexplained:
             console.print(f"  {action.unexplained} of them follow from nothing about its arguments")
+        if action.undecided:
+            atoms = " ".join(map(str, action.undecided))
+            console.print(f"  no state shows whether it changes {atoms}")
     for name in _unseen(model):
         console.print(f"{name}: never seen to work, left out")
     console.print(f"written: {out / 'domain.pddl'} and what belongs to it")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from skillwrapper.cli.action_models import Negatives, learn_from_traces
+from skillwrapper.cli.action_models import Negatives, TraceOptions, learn_from_traces
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.cli.setting_options import ConfigOption, SetOption, run_settings
 from skillwrapper.domains.discovery import find_domain
@@ -57,6 +57,19 @@ def learn_from_file(
         Negatives | None,
         typer.Option(help="With a PDDL domain: which negative preconditions. Default: declared."),
     ] = None,
+    partial: Annotated[
+        bool,
+        typer.Option(
+            "--partial",
+            help="In traces in parentheses, states say all that is known, not all that is true.",
+        ),
+    ] = False,
+    problem: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="With a PDDL domain: the problem that plans solve; one for all, or one for each."
+        ),
+    ] = None,
     predicates: Annotated[
         Path | None,
         typer.Option(help="predicates.yaml with types and meanings; default: from the atoms."),
@@ -66,13 +79,14 @@ def learn_from_file(
     as_json: JsonFlag = False,
 ) -> None:
     """Learn operators from transitions whose labels are known; no picture, no model."""
+    options = TraceOptions(failures, partial, tuple(problem or ()), negatives)
     if domain.lower().endswith(".pddl"):
-        learn_from_traces(transitions, Path(domain), out, failures, negatives, as_json=as_json)
+        learn_from_traces(transitions, Path(domain), out, options, as_json=as_json)
         return
-    if len(transitions) > 1 or failures or negatives is not None:
+    if len(transitions) > 1 or options != TraceOptions():
         raise ConfigurationError(
-            "several files, --failures and --negatives are for PDDL domains: expected --domain "
-            f"to name a file that ends with .pddl, got '{domain}'"
+            "several files, --failures, --negatives, --partial and --problem are for PDDL "
+            f"domains: expected --domain to name a file that ends with .pddl, got '{domain}'"
         )
     settings = run_settings(config, {"domain": ("--domain", domain)}, assignments or ()).learning
     declared = find_domain(domain).domain
