@@ -25,7 +25,7 @@ class SkillWrapper:
     """Action models from AMLGym's domains and trajectories.
 
     Attributes:
-        settings: what preconditions may say.
+        settings: what models may say.
         failures: whether an action after which the state is the same has failed.
     """
 
@@ -45,4 +45,4 @@ class SkillWrapper:
         learner = ActionModelLearner(read_skeleton(Path(domain_path)), self.settings)
         paths = [Path(path) for path in trajectory_paths]
         learner.add(read_steps(paths, learner.skeleton, failures=self.failures))
-        return print_model(learner.learn())
+        return print_model(learner.learn(), self.settings.effects)

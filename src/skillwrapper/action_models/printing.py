@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal
 
+from skillwrapper.action_models.contexts import separate
 from skillwrapper.action_models.models import ActionModel, DomainModel, Effect
-from skillwrapper.action_models.skeleton import ROOT, Schema, TypedName
+from skillwrapper.action_models.skeleton import ROOT, DomainSkeleton, Schema, TypedName
 
 _NUMERIC = frozenset({":action-costs", ":fluents", ":numeric-fluents"})
 
 
-def print_model(model: DomainModel) -> str:
-    """The domain; equal models give equal text."""
+def print_model(
+    model: DomainModel, effects: Literal["conditional", "separate"] = "conditional"
+) -> str:
+    """The domain; equal models give equal text.
+
+    Args:
+        model: the domain.
+        effects: whether an action whose effects depend on context is one, with conditional
+            effects, or several, which are named after it and numbered.
+    """
     skeleton = model.skeleton
-    parts = [f"  (:requirements {' '.join(_requirements(model))})"]
+    actions = [model.actions[name] for name in skeleton.actions if name in model.actions]
+    if effects == "separate":
+        actions = [one for action in actions for one in separate(action, skeleton.actions)]
+    parts = [f"  (:requirements {' '.join(_requirements(skeleton, actions))})"]
     types = [
         TypedName(name, skeleton.types.parents[name] or (ROOT,)) for name in skeleton.types.names
     ]
@@ -21,13 +34,13 @@ def print_model(model: DomainModel) -> str:
     parts += _section(":constants", (_typed(t) for t in skeleton.constants))
     parts += _section(":predicates", map(_predicate, skeleton.predicates.values()))
     parts += _section(":functions", [" ".join(skeleton.functions)] if skeleton.functions else [])
-    parts += [_action(model.actions[name]) for name in skeleton.actions if name in model.actions]
+    parts += map(_action, actions)
     return f"(define (domain {skeleton.name})\n" + "\n".join(parts) + "\n)\n"
 
 
-def _requirements(model: DomainModel) -> Iterator[str]:
-    conditions = [c for a in model.actions.values() for c in a.preconditions]
-    effects = [e for a in model.actions.values() for e in a.effects]
+def _requirements(skeleton: DomainSkeleton, actions: Sequence[ActionModel]) -> Iterator[str]:
+    conditions = [c for a in actions for c in a.preconditions]
+    effects = [e for a in actions for e in a.effects]
     yield ":strips"
     yield ":typing"
     if any(not c.holds for c in (*conditions, *(w for e in effects for w in e.when))):
@@ -36,8 +49,8 @@ def _requirements(model: DomainModel) -> Iterator[str]:
         yield ":equality"
     if any(e.when for e in effects):
         yield ":conditional-effects"
-    if model.skeleton.functions:
-        yield from sorted(model.skeleton.requirements & _NUMERIC)
+    if skeleton.functions:
+        yield from sorted(skeleton.requirements & _NUMERIC)
 
 
 def _section(head: str, lines: Iterable[str]) -> list[str]:

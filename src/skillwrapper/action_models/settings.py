@@ -1,4 +1,4 @@
-"""What learned preconditions may say."""
+"""What learned action models may say."""
 
 from __future__ import annotations
 
@@ -31,4 +31,9 @@ class ActionModelSettings(BaseModel):
         ge=0,
         description="how many states are kept to see whether a precondition makes a difference",
         json_schema_extra={"unit": "states"},
+    )
+    effects: Literal["conditional", "separate"] = Field(
+        default="conditional",
+        description="how it is printed that what an action does depends on context: conditional, "
+        "as one action with (when ...); separate, as several actions without, of which one applies",
     )

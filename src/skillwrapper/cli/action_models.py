@@ -29,6 +29,13 @@ class Negatives(StrEnum):
     ALL = "all"
 
 
+class Effects(StrEnum):
+    """How effects that depend on context are printed (``ActionModelSettings.effects``)."""
+
+    CONDITIONAL = "conditional"
+    SEPARATE = "separate"
+
+
 @dataclass(frozen=True)
 class TraceOptions:
     """What may be said of traces for a PDDL domain.
@@ -38,20 +45,28 @@ class TraceOptions:
         partial: whether states say all that is known, not all that is true.
         problems: what plans start from and lead to.
         negatives: which negative preconditions; None for the default.
+        effects: how effects that depend on context are printed; None for the default.
     """
 
     failures: bool = False
     partial: bool = False
     problems: tuple[Path, ...] = ()
     negatives: Negatives | None = None
+    effects: Effects | None = None
+
+    def settings(self) -> ActionModelSettings:
+        """What models may say."""
+        given = {"negatives": self.negatives, "effects": self.effects}
+        return ActionModelSettings.model_validate(
+            {key: value.value for key, value in given.items() if value is not None}
+        )
 
 
 def learn_from_traces(
     traces: Sequence[Path], domain: Path, out: Path, options: TraceOptions, *, as_json: bool
 ) -> None:
     """Learn a PDDL domain from traces, under its own names of actions and parameters."""
-    given = {} if options.negatives is None else {"negatives": options.negatives.value}
-    settings = ActionModelSettings.model_validate(given)
+    settings = options.settings()
     skeleton = read_skeleton(domain)
     steps = read_steps(
         traces,
@@ -64,7 +79,7 @@ def learn_from_traces(
     if first is None:
         raise FileError(f"{traces[0]}: expected at least one action between two states, got none")
     model = learn_action_models(skeleton, itertools.chain([first], steps), settings)
-    write_atomically(out / "domain.pddl", print_model(model))
+    write_atomically(out / "domain.pddl", print_model(model, settings.effects))
     write_json(out / "action_models.json", _figures(model))
     if as_json:
         print_json(_figures(model))

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from skillwrapper.cli.action_models import Negatives, TraceOptions, learn_from_traces
+from skillwrapper.cli.action_models import Effects, Negatives, TraceOptions, learn_from_traces
 from skillwrapper.cli.output import JsonFlag, print_json, results
 from skillwrapper.cli.setting_options import ConfigOption, SetOption, run_settings
 from skillwrapper.domains.discovery import find_domain
@@ -57,6 +57,13 @@ def learn_from_file(
         Negatives | None,
         typer.Option(help="With a PDDL domain: which negative preconditions. Default: declared."),
     ] = None,
+    effects: Annotated[
+        Effects | None,
+        typer.Option(
+            help="With a PDDL domain: an action whose effects depend on context as one with "
+            "conditional effects, or as separate ones. Default: conditional."
+        ),
+    ] = None,
     partial: Annotated[
         bool,
         typer.Option(
@@ -79,14 +86,14 @@ def learn_from_file(
     as_json: JsonFlag = False,
 ) -> None:
     """Learn operators from transitions whose labels are known; no picture, no model."""
-    options = TraceOptions(failures, partial, tuple(problem or ()), negatives)
+    options = TraceOptions(failures, partial, tuple(problem or ()), negatives, effects)
     if domain.lower().endswith(".pddl"):
         learn_from_traces(transitions, Path(domain), out, options, as_json=as_json)
         return
     if len(transitions) > 1 or options != TraceOptions():
         raise ConfigurationError(
-            "several files, --failures, --negatives, --partial and --problem are for PDDL "
-            f"domains: expected --domain to name a file that ends with .pddl, got '{domain}'"
+            "several files, --failures, --negatives, --effects, --partial and --problem are for "
+            f"PDDL domains: expected --domain to name a file that ends with .pddl, got '{domain}'"
         )
     settings = run_settings(config, {"domain": ("--domain", domain)}, assignments or ()).learning
     declared = find_domain(domain).domain
