@@ -192,7 +192,10 @@ def test_whatever_happens_it_ends_and_is_recorded(
     report = carry_out(run, tmp_path, kind(run), skill_limit=0.2)
     assert report.ending is ending
     assert said in report.reason
-    assert events_of(tmp_path)[-1] == {"event": "ended", "ending": ending, "reason": report.reason}
+    *_, began, ended = events_of(tmp_path)
+    assert began["event"] == "started"
+    assert report.reason.startswith(began["skill"])
+    assert ended == {"event": "ended", "ending": ending, "reason": report.reason}
 
 
 def carry_out_in_doubt(

@@ -35,8 +35,12 @@ class _Call:
             self.done.set()
 
 
-def check_halted(environment: Environment) -> None:
+def check_halted(environment: Environment, running: SkillInstance | None = None) -> None:
     """Raise if nothing may move now.
+
+    Args:
+        environment: the robot.
+        running: what it runs, or has just run; None between two skills.
 
     Raises:
         EmergencyStopError: with the reason that the robot gives.
@@ -44,7 +48,8 @@ def check_halted(environment: Environment) -> None:
     if supports(environment, Haltable):
         reason = require(environment, Haltable, "the emergency stop").halted()
         if reason is not None:
-            raise EmergencyStopError(f"emergency stop: {reason or 'no reason given'}")
+            where = f"{running}: " if running else ""
+            raise EmergencyStopError(f"{where}emergency stop: {reason or 'no reason given'}")
 
 
 def execute_guarded(environment: Environment, instance: SkillInstance, limit: float) -> Outcome:
@@ -68,12 +73,12 @@ def execute_guarded(environment: Environment, instance: SkillInstance, limit: fl
     threading.Thread(target=running.run, daemon=True, name=f"skill {instance}").start()
     deadline = time.monotonic() + limit
     while not running.done.wait(_LOOK_EVERY):
-        check_halted(environment)
+        check_halted(environment, instance)
         if time.monotonic() > deadline:
             raise RobotError(f"{instance}: expected an end within {limit:g} s, got none")
     if running.error is not None:
         raise _as_robot_error(running.error, instance) from running.error
-    check_halted(environment)
+    check_halted(environment, instance)
     if running.outcome is None:
         raise RobotError(f"{instance}: expected an outcome, got none")
     return running.outcome

@@ -166,6 +166,7 @@ class Execution(ABC):
 
     def _execute(self, before: Observation, instance: SkillInstance) -> Outcome:
         """Run a skill, and write down what came of it."""
+        self._record.note("started", skill=str(instance))  # first: it may be the robot's last
         outcome = execute_guarded(self._environment, instance, self._settings.skill_limit)
         after = outcome.observation
         done = Transition(before, instance, outcome.success, after, outcome.changed)
