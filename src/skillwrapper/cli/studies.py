@@ -16,6 +16,7 @@ from skillwrapper.evaluation.study.conditions import CONDITIONS, find_conditions
 from skillwrapper.evaluation.study.invention import study_invention
 from skillwrapper.evaluation.study.models import StudiedModel
 from skillwrapper.evaluation.study.perception import study_perception
+from skillwrapper.evaluation.study.profiles import profile_of_study
 from skillwrapper.evaluation.study.subjects import subject_of
 from skillwrapper.evaluation.study.tables import (
     StudyTable,
@@ -23,6 +24,7 @@ from skillwrapper.evaluation.study.tables import (
     perception_tables,
 )
 from skillwrapper.files.writing import write_atomically
+from skillwrapper.runs.estimated_noise import print_profile
 
 ModelsOption = Annotated[
     list[str] | None,
@@ -60,6 +62,12 @@ def perception(
     seed: SeedOption = 0,
     calls: CallsOption = None,
     markdown: MarkdownOption = None,
+    write_profile: Annotated[
+        Path | None,
+        typer.Option(
+            help="Also write how one model misread under one condition, for --noise FILE (.yaml)."
+        ),
+    ] = None,
     as_json: JsonFlag = False,
 ) -> None:
     """Compare what models read off pictures with the truth, under several conditions."""
@@ -69,6 +77,8 @@ def perception(
         study = study_perception(
             subject, _models(model, noise), chosen, seed=seed, calls=calls, progress=status.update
         )
+    if write_profile is not None:
+        write_atomically(write_profile, print_profile(profile_of_study(study)))
     _show(perception_tables(study), study.to_json(), markdown, as_json)
 
 

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -5,15 +6,18 @@ import pytest
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.states import BurgerState
 from skillwrapper.domains.discovery import find_domain
+from skillwrapper.embedded.noise import read_profile
 from skillwrapper.errors import ConfigurationError, UnknownNameError
 from skillwrapper.evaluation.published import published_figures
 from skillwrapper.evaluation.study.conditions import CONDITIONS, find_conditions
 from skillwrapper.evaluation.study.models import StudiedModel, open_studied
 from skillwrapper.evaluation.study.perception import PerceptionStudy, study_perception
+from skillwrapper.evaluation.study.profiles import profile_of_study
 from skillwrapper.evaluation.study.scoring import mean_accuracy, score_predicate
 from skillwrapper.evaluation.study.subjects import subject_of
 from skillwrapper.evaluation.study.tables import EMBEDDED_NOTE, perception_tables
 from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.runs.estimated_noise import print_profile
 from skillwrapper.runs.launch import learn
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Atom, Predicate
@@ -164,3 +168,19 @@ def test_one_of_a_domains_drawings_is_a_condition() -> None:
     subject = subject_of("burger", pictures=2)
     assert (subject.supports(chalk), subject.supports(oil)) == (True, False)
     assert len(subject.samples(chalk)) == 2
+
+
+def test_a_profile_tells_the_counts_of_one_model_under_one_condition(
+    study: PerceptionStudy, tmp_path: Path
+) -> None:
+    """What is written can be read back, and errs as the model did."""
+    noisy = study.result(StudiedModel("embedded", "gpt5"), CONDITIONS["clean"])
+    with pytest.raises(ConfigurationError, match="one model and one condition"):
+        profile_of_study(study)
+    path = tmp_path / "measured.yaml"
+    path.write_text(print_profile(profile_of_study(replace(study, results=(noisy,)))))
+    profile = read_profile(path)
+    assert profile.clean_pictures == pytest.approx(noisy.clean, abs=1e-3)
+    counted = {f.name: (f.false_positives, f.false_negatives) for f in profile.facts}
+    assert counted == {s.predicate: (s.false_positives, s.false_negatives) for s in noisy.scores}
+    assert sum(map(sum, counted.values())) > 0

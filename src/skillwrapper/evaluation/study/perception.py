@@ -14,6 +14,7 @@ from skillwrapper.evaluation.study.scoring import (
     PredicateScore,
     mean_accuracy,
     score_predicate,
+    share_clean,
 )
 from skillwrapper.evaluation.study.subjects import Sample, Subject
 from skillwrapper.perception.questions import EvaluationQuestion
@@ -28,11 +29,13 @@ class ConditionResult:
         model: the model.
         condition: the condition.
         scores: one for each predicate.
+        clean: share of the pictures in which nothing is misread; None without any.
     """
 
     model: StudiedModel
     condition: Condition
     scores: tuple[PredicateScore, ...]
+    clean: float | None = None
 
     @property
     def accuracy(self) -> float | None:
@@ -53,6 +56,7 @@ class ConditionResult:
             "meaning": self.condition.meaning,
             "accuracy": self.accuracy,
             "lifted_accuracy": self.lifted_accuracy,
+            "clean": self.clean,
             "predicates": [score.to_json() for score in self.scores],
         }
 
@@ -129,8 +133,8 @@ def study_perception(
         for model in models:
             progress(f"{condition.name}: {model.label}")
             with open_studied(model, domain, seed=seed, calls=calls) as assistant:
-                scores = _read(subject, samples, assistant)
-            results.append(ConditionResult(model, condition, scores))
+                scores, clean = _read(subject, samples, assistant)
+            results.append(ConditionResult(model, condition, scores, clean))
     left_out = tuple(c.name for c in conditions if c not in shown)
     published = subject.published.perception
     return PerceptionStudy(subject.origin, pictures, tuple(results), left_out, published)
@@ -138,14 +142,16 @@ def study_perception(
 
 def _read(
     subject: Subject, samples: Sequence[Sample], assistant: Assistant
-) -> tuple[PredicateScore, ...]:
+) -> tuple[tuple[PredicateScore, ...], float | None]:
+    """How every predicate is read, and the share of pictures in which nothing is misread."""
     questions = [
         EvaluationQuestion(subject.domain, subject.objects, s.observation, subject.predicates)
         for s in samples
     ]
     readings = [answer.labels for answer in assistant.evaluate(questions)]
     truths = [sample.truth for sample in samples]
-    return tuple(
+    scores = tuple(
         score_predicate(predicate, subject.objects, truths, readings)
         for predicate in subject.predicates
     )
+    return scores, share_clean(truths, readings)

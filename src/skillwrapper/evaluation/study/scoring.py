@@ -23,6 +23,8 @@ class PredicateScore:
         false_positives: false ones read as true.
         false_negatives: true ones read as false.
         unknown: groundings left without a label.
+        unknown_true: how many of these are true.
+        arity: number of its parameters.
         pictures: number of pictures.
         pictures_right: pictures in which every grounding is read rightly.
     """
@@ -35,6 +37,8 @@ class PredicateScore:
     unknown: int
     pictures: int
     pictures_right: int
+    unknown_true: int = 0
+    arity: int = 0
 
     @property
     def accuracy(self) -> float | None:
@@ -75,7 +79,18 @@ def score_predicate(
         unknown=sum(read is None for _, read in flat),
         pictures=len(pairs),
         pictures_right=sum(all(truth is read for truth, read in picture) for picture in pairs),
+        unknown_true=sum(truth is True and read is None for truth, read in flat),
+        arity=predicate.arity,
     )
+
+
+def share_clean(truths: Sequence[Readings], readings: Sequence[Readings]) -> float | None:
+    """The share of pictures in which nothing is misread; None without any."""
+    clean = [
+        all(read.get(atom) in (None, value) for atom, value in truth.items())
+        for truth, read in zip(truths, readings, strict=True)
+    ]
+    return sum(clean) / len(clean) if clean else None
 
 
 def mean_accuracy(scores: Iterable[PredicateScore], *, lifted: bool) -> float | None:
