@@ -9,6 +9,7 @@ import pytest
 from kitchen import DOMAIN
 from misread_kitchen import VOCABULARY, MisreadKitchen, space_of
 
+from skillwrapper.learning.certification import certify
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.learner import Learner
@@ -76,6 +77,22 @@ def test_an_operator_that_rests_on_a_doubtful_label_is_left_out() -> None:
     assert len(robust.operators) < len(faithful.operators)
     assert len(robust.inconsistencies) < len(faithful.inconsistencies)
     assert any(fit.left_out for fit in robust.skills.values())
+
+
+def test_the_certificate_tells_what_is_explained_and_what_is_overruled() -> None:
+    robust = RobustLearner().learn(_with_one_wrong(0.92))
+    found = certify(robust)
+    (one,) = found.left_out
+    assert (one.skill, one.transition) == ("Pick", next(iter(_left_out_ids(robust))))
+    assert "is_cooked(patty)" in one.reason
+    broken = {violation.transition for violation in found.violations}
+    assert one.transition in broken
+    assert found.explained == 1 - len(broken) / found.decided
+
+
+def _left_out_ids(fit: Fit) -> frozenset[int]:
+    clusters = (cluster for skill in fit.skills.values() for cluster in skill.left_out)
+    return frozenset(int(number) for cluster in clusters for number in cluster.ids)
 
 
 def test_what_is_not_in_doubt_is_never_explained_away() -> None:

@@ -4,7 +4,7 @@ import pytest
 
 from skillwrapper.errors import FileError
 from skillwrapper.report.charts import LineChart, Series, round_steps
-from skillwrapper.report.strips import Cell, lay_out
+from skillwrapper.report.strips import Beyond, Cell, lay_out
 from skillwrapper.runs.archive import RecordedLabels
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation, Picture
@@ -89,6 +89,22 @@ def test_failures_without_a_change_stand_over_the_next_picture() -> None:
     assert found.strips[0].rows == (("held()", cells),)
     assert found.always == ("table()",)
     assert found.changes == 1
+
+
+def test_what_is_overruled_is_shown_as_believed_beside_what_was_read() -> None:
+    """It was read as held in the middle picture; decoding says no; in truth it never was."""
+    steps = (_did("a", "Wave", True, "b"), _did("b", "Nod", True, "c"))
+    episode = Episode(Scene("empty", ()), 0, steps)
+    keys = [_see(name).key for name in "abc"]
+    rows = {k: {"held()": held} for k, held in zip(keys, (False, True, True), strict=True)}
+    truth = RecordedLabels({key: {"held()": False} for key in keys})
+    beyond = Beyond(frozenset({(keys[1], "held()")}), truth)
+    found = lay_out(1, episode, RecordedLabels(rows), beyond)
+    assert found.strips[0].rows[0][1] == (
+        Cell(False, False),
+        Cell(False, False, read=True),
+        Cell(True, True, wrong=True),
+    )
 
 
 def test_long_episodes_are_broken_into_strips() -> None:

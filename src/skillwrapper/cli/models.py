@@ -125,6 +125,9 @@ def _print_certificate(learned: ArchivedIteration) -> None:
     table.add_row("violations of Lemma 1", str(certificate.lemma1_violations))
     table.add_row("violations of Theorem 1", str(certificate.theorem1_violations))
     table.add_row("inconsistencies left", str(learned.summary.inconsistencies))
+    if certificate.explained is not None:
+        table.add_row("explained, of the decided", f"{certificate.explained:.1%}")
+    table.add_row("overruled", str(len(certificate.left_out)))
     console.print(Text.assemble(("certificate", "bold"), " (on the recorded data)"))
     console.print(table)
     for violation in certificate.violations:
@@ -132,6 +135,8 @@ def _print_certificate(learned: ArchivedIteration) -> None:
             f"  {violation.statement}: {violation.skill}, transition {violation.transition}: "
             f"{violation.reason}",
         )
+    for one in certificate.left_out:
+        console.print(f"  overruled: {one.skill}, transition {one.transition}: {one.reason}")
 
 
 def _print_decoding(learned: ArchivedIteration, pictures: PictureStore) -> None:

@@ -83,7 +83,11 @@ def _to_json(
         "log10_transitions": float(size.log10_transitions),
     }
     if error is not None:
-        found["held_back"] = {**vars(error), "interval": list(error.interval)}
+        found["held_back"] = {
+            **vars(error),
+            "interval": list(error.interval),
+            "at_most": error.at_most,
+        }
     return found
 
 
@@ -113,6 +117,12 @@ def _print(
             f" ({error.undecided} undecided), a true error between {low:.4f} and {high:.4f} with "
             f"probability {error.confidence:g}, if transitions were independent and the vocabulary "
             "were given."
+        )
+    if error is not None and error.wrong_as_read is not None:
+        console.print(
+            "These labels are decoded, and lean towards the model. Beside the labels as they were "
+            f"read {error.wrong_as_read} of {error.tried_as_read} predictions are wrong, every "
+            f"misreading included: the true error is at most {error.at_most:.4f}."
         )
 
 

@@ -37,6 +37,21 @@ class Violation:
 
 
 @dataclass(frozen=True)
+class LeftOut:
+    """A success of which no operator was learned: it is taken for chance, or for a misreading.
+
+    Attributes:
+        skill: name of the skill.
+        transition: number of the transition in the data.
+        reason: why, for people.
+    """
+
+    skill: str
+    transition: int
+    reason: str
+
+
+@dataclass(frozen=True)
 class Certificate:
     """What was checked, and what was found.
 
@@ -46,6 +61,7 @@ class Certificate:
         undecided: transitions that hang on an unknown label (D10).
         no_ops: successes that changed nothing (D7), exempt from comparing changes.
         violations: every violation.
+        left_out: successes that the model overrules.
     """
 
     transitions: int
@@ -53,6 +69,13 @@ class Certificate:
     undecided: int
     no_ops: int
     violations: tuple[Violation, ...]
+    left_out: tuple[LeftOut, ...] = ()
+
+    @property
+    def explained(self) -> float | None:
+        """The share of the decided transitions that break no statement; None if none is decided."""
+        broken = {violation.transition for violation in self.violations}
+        return 1 - len(broken) / self.decided if self.decided else None
 
     def count(self, statement: str) -> int:
         """Number of violations of ``"lemma1"`` or ``"theorem1"``."""
@@ -64,6 +87,7 @@ class Certificate:
             **asdict(self),
             "lemma1_violations": self.count("lemma1"),
             "theorem1_violations": self.count("theorem1"),
+            "explained": self.explained,
         }
 
 
@@ -79,7 +103,18 @@ def certify(fit: Fit) -> Certificate:
             violations += _check_theorem(name, prediction, still)
             total += len(prediction.table)
             undecided += int(prediction.undecided.sum())
-    return Certificate(total, total - undecided, undecided, no_ops, tuple(violations))
+    left_out = tuple(_left_out(fit))
+    return Certificate(total, total - undecided, undecided, no_ops, tuple(violations), left_out)
+
+
+def _left_out(fit: Fit) -> Iterator[LeftOut]:
+    """The successes of which no operator was learned, in order of skill and time."""
+    for name, skill_fit in fit.skills.items():
+        for cluster in skill_fit.left_out:
+            changed = ", ".join(map(str, cluster.groups[0].changed)) or "nothing"
+            reason = f"changed {changed}; nothing like it was seen otherwise, and wrong labels or "
+            for number in sorted(cluster.ids):
+                yield LeftOut(name, int(number), reason + "chance explain it better")
 
 
 def _check_lemma(

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from skillwrapper.report.account import CallAccount, read_account
+from skillwrapper.report.beyond_readings import beyond_readings
 from skillwrapper.report.charts import LineChart
 from skillwrapper.report.curves import learning_charts
 from skillwrapper.report.history import DatedDecision, RunHistory
@@ -57,6 +58,8 @@ class ReportContents:
         account: model calls; None if none were recorded.
         episodes: strips of episodes, the richest ones, in order of time.
         opened: number of the episode that is shown unfolded; None if there is none.
+        decodes: whether labels are decoded.
+        knows_truth: whether the true labels of the pictures are known.
     """
 
     settings: RunSettings
@@ -78,6 +81,8 @@ class ReportContents:
     account: CallAccount | None
     episodes: tuple[EpisodeStrips, ...]
     opened: int | None
+    decodes: bool = False
+    knows_truth: bool = False
 
     @property
     def is_complete(self) -> bool:
@@ -114,7 +119,8 @@ class ReportContents:
         """
         latest, history = archive.latest(), RunHistory.read(archive)
         settings, model, labels = archive.settings(), latest.model, latest.labels
-        strips = [lay_out(i.number, i.episode, labels) for i in history.iterations]
+        beyond = beyond_readings(settings.domain, latest, (i.episode for i in history.iterations))
+        strips = [lay_out(i.number, i.episode, labels, beyond) for i in history.iterations]
         richest = sorted(strips, key=lambda s: (-s.changes, s.number))[:most_episodes]
         times = [event.time for event in archive.events()]
         return cls(
@@ -139,6 +145,8 @@ class ReportContents:
             account=read_account(archive),
             episodes=tuple(sorted(richest, key=lambda s: s.number)),
             opened=richest[0].number if richest else None,
+            decodes=latest.decoding is not None,
+            knows_truth=beyond.truth is not None,
         )
 
 

@@ -36,12 +36,16 @@ class Cell:
     """A truth value under a picture.
 
     Attributes:
-        value: True, False, or None for unknown.
+        value: True, False, or None for unknown; as decoded, where labels are.
         changed: whether it is known and another one than the last known before.
+        read: what was read, if decoding overrules it; else None.
+        wrong: whether the value is not the truth, where that is known.
     """
 
     value: bool | None
     changed: bool
+    read: bool | None = None
+    wrong: bool = False
 
 
 @dataclass(frozen=True)
@@ -83,13 +87,42 @@ class EpisodeStrips:
         return sum(len(strip.moments) for strip in self.strips)
 
 
-def lay_out(number: int, episode: Episode, labels: RecordedLabels) -> EpisodeStrips:
-    """Strips of an episode, with what varies in it."""
+@dataclass(frozen=True)
+class Beyond:
+    """What is known beyond readings.
+
+    Attributes:
+        overruled: readings that decoding takes for mistakes: the key of an observation, an atom.
+        truth: true labels; None where nobody knows them.
+    """
+
+    overruled: frozenset[tuple[str, str]] = frozenset()
+    truth: RecordedLabels | None = None
+
+
+NOTHING = Beyond()
+
+
+def lay_out(
+    number: int, episode: Episode, labels: RecordedLabels, beyond: Beyond = NOTHING
+) -> EpisodeStrips:
+    """Strips of an episode, with what varies in it, or was read wrongly.
+
+    Args:
+        number: of the iteration.
+        episode: what was executed.
+        labels: what was read.
+        beyond: what is known besides.
+    """
     moments, last_failed = _moments(episode)
     values = [labels.of(moment.key) for moment in moments]
     atoms = tuple(dict.fromkeys(atom for row in values for atom in row))
     columns = {atom: tuple(row.get(atom) for row in values) for atom in atoms}
-    varying = {atom: _cells(c) for atom, c in columns.items() if len(set(c)) > 1 or None in c}
+    varying = {
+        atom: _cells(atom, c, moments, beyond)
+        for atom, c in columns.items()
+        if len(set(c)) > 1 or None in c
+    }
     strips = [
         Strip(
             tuple(moments[start : start + _COLUMNS]),
@@ -124,11 +157,19 @@ def _moments(episode: Episode) -> tuple[list[Moment], tuple[str, ...]]:
     return moments, tuple(failed)
 
 
-def _cells(column: Sequence[bool | None]) -> tuple[Cell, ...]:
+def _cells(
+    atom: str, column: Sequence[bool | None], moments: Sequence[Moment], beyond: Beyond
+) -> tuple[Cell, ...]:
     """Cells of one atom; an unknown value is no change, what follows it may be one."""
-    cells, last = [], column[0]
-    for value in column:
-        cells.append(Cell(value, None not in (value, last) and value is not last))
+    cells: list[Cell] = []
+    last: bool | None = None
+    for read, moment in zip(column, moments, strict=True):
+        overruled = read is not None and (moment.key, atom) in beyond.overruled
+        value = not read if overruled else read
+        true = beyond.truth.of(moment.key).get(atom) if beyond.truth is not None else None
+        changed = None not in (value, last) and value is not last
+        wrong = None not in (value, true) and value is not true
+        cells.append(Cell(value, changed, read if overruled else None, wrong))
         last = last if value is None else value
     return tuple(cells)
 

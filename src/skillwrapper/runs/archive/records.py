@@ -109,6 +109,14 @@ class ViolationRecord(Record):
     reason: str
 
 
+class LeftOutRecord(Record):
+    """A success of which no operator was learned."""
+
+    skill: str
+    transition: Count
+    reason: str
+
+
 class CertificateRecord(Record):
     """Lemma 1 and Theorem 1 on the recorded data."""
 
@@ -119,6 +127,8 @@ class CertificateRecord(Record):
     violations: tuple[ViolationRecord, ...]
     lemma1_violations: Count
     theorem1_violations: Count
+    left_out: tuple[LeftOutRecord, ...] = ()
+    explained: Share | None = None
 
 
 class OverruledRecord(Record):
