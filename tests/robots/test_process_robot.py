@@ -32,6 +32,7 @@ def robot(code: str, limit: float = 5.0) -> ProcessRobot:
         ("print('{}', flush=True)", "expected 'success', got none"),
         ("print('{\"sucess\": true}', flush=True)", "did you mean 'success'?"),
         ('print(\'{"error": "arm is hot"}\', flush=True)', "arm is hot"),
+        ('print(\'{"error": ""}\', flush=True)', "no reason"),
         ("sys.exit(3)", "ended with exit code 3"),
         ("import os; os.kill(os.getpid(), 9)", "killed by signal 9"),
         ("import os; os.write(1, b'\\xff\\xfe\\n')", "expected one JSON object"),

@@ -120,7 +120,8 @@ class ProcessRobot(Robot):
         except ValidationError as error:
             raise RobotError(f"{self._name}: {what}: {_explain(line, error, kind)}") from error
         if answer.error is not None:
-            raise RobotError(f"{self._name}: {what}: {answer.error}")
+            reason = answer.error.strip() or "an error for which it gives no reason"
+            raise RobotError(f"{self._name}: {what}: {reason}")
         return answer
 
 
