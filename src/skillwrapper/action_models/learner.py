@@ -67,7 +67,9 @@ class ActionModelLearner:
         found = find_preconditions(views, table, background, self.settings)
         effects = find_effects(table, views.atoms)
         unexplained = count_unexplained(table, views.atoms, effects)
-        unseen = some((table.alone & ~table.after & ~table.false_after)[table.success])
+        done = table.success
+        lost = some((table.alone & ~table.after & ~table.false_after)[done])
+        known = some((table.before | table.false_before)[done]).tolist()
         return ActionModel(
             views.action,
             found.needed,
@@ -75,7 +77,8 @@ class ActionModelLearner:
             found.refuted,
             views.steps + len(filled.views.get(name, ())),
             views.unexplained + found.unexplained + unexplained,
-            tuple(sorted(views.atoms[n] for n in filled.undecided.get(name, ()) if unseen[n])),
+            tuple(sorted(views.atoms[n] for n in filled.undecided.get(name, ()) if lost[n])),
+            tuple(sorted(a for a, own in zip(views.atoms, known, strict=True) if not own)),
         )
 
 

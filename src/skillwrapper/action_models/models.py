@@ -53,6 +53,8 @@ class ActionModel:
             otherwise than the effects say.
         undecided: of what no state shows whether the action changes it: no effect is said, and
             there may be one; sorted. Only where states were missing.
+        unseen: of what no state before a success shows anything: whether there is a precondition
+            about it is open; sorted. Only where states were missing.
     """
 
     action: Schema
@@ -62,6 +64,7 @@ class ActionModel:
     steps: int = 0
     unexplained: int = 0
     undecided: tuple[LiftedAtom, ...] = ()
+    unseen: tuple[LiftedAtom, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,11 @@
 """Preconditions: what held before every success, bounded from above by what failed.
 
-Whatever was false before a success is no precondition. Without failures nothing more is known,
-and all that is left counts: the model is sound. A failure must violate a precondition, so what
-alone explains a failure is needed. What was violated in several failures and never alone is given
-up, if it follows from what is likelier to be meant, in all states that were seen (``witnesses``).
+Whatever was false before a success is no precondition, and neither is what was never seen to hold
+before one (D10; ``cautious`` keeps it): the two differ only where states were missing. Without
+failures nothing more is known, and all that is left counts: the model is sound. A failure must
+violate a precondition, so what alone explains a failure is needed. What was violated in several
+failures and never alone is given up, if it follows from what is likelier to be meant, in all states
+that were seen (``witnesses``).
 """
 
 from __future__ import annotations
@@ -51,6 +53,8 @@ def find_preconditions(
     """
     conditions, violated = _candidates(views, table)
     possible = ~some(violated[table.success])
+    if not settings.cautious:
+        possible &= some(_held(table)[table.success])
     conditions = [c for c, left in zip(conditions, possible, strict=True) if left]
     failures = violated[~table.success][:, possible]
     allowed = _announced(conditions, views, background.seen, settings)
@@ -83,6 +87,11 @@ def _candidates(views: ActionViews, table: ViewTable) -> tuple[list[Condition], 
     lacking = np.where(done, table.false_before, ~table.before)
     present = np.where(done, table.before, ~table.false_before)
     return conditions, np.hstack([lacking, present, table.equal])
+
+
+def _held(table: ViewTable) -> Bits:
+    """Whether literals are known to have held (views, literals); in the order of candidates."""
+    return np.hstack([table.before, table.false_before, ~table.equal])
 
 
 def _announced(

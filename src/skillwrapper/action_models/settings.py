@@ -37,3 +37,9 @@ class ActionModelSettings(BaseModel):
         description="how it is printed that what an action does depends on context: conditional, "
         "as one action with (when ...); separate, as several actions without, of which one applies",
     )
+    cautious: bool = Field(
+        default=False,
+        description="whether of what no state before an action shows anything, where states are "
+        "missing, everything counts as its precondition; what is learned is sound then, and may "
+        "never apply. Otherwise a precondition was seen to hold at least once",
+    )

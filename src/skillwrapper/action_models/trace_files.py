@@ -104,6 +104,8 @@ class _Reader:
     def _state(self, kind: str, content: str, where: str) -> PartialState:
         if not self.builder.is_empty and not self.builder.waits:
             raise FileError(f"{where}: expected an action between two states")
+        if kind == ":goal" and self.builder.is_empty:
+            raise FileError(f"{where}: expected '(:init' or '(:state' first, got a goal")
         is_complete = kind == ":init" or (kind == ":state" and not self.partial)
         state = _state(content, where, is_complete=is_complete)
         check_atoms(self.skeleton, state.atoms, where)

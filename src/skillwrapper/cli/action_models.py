@@ -44,6 +44,7 @@ class TraceOptions:
         failures: whether what leaves the state as it was failed.
         partial: whether states say all that is known, not all that is true.
         problems: what plans start from and lead to.
+        cautious: whether what no state shows counts as a precondition.
         negatives: which negative preconditions; None for the default.
         effects: how effects that depend on context are printed; None for the default.
     """
@@ -51,15 +52,15 @@ class TraceOptions:
     failures: bool = False
     partial: bool = False
     problems: tuple[Path, ...] = ()
+    cautious: bool = False
     negatives: Negatives | None = None
     effects: Effects | None = None
 
     def settings(self) -> ActionModelSettings:
         """What models may say."""
         given = {"negatives": self.negatives, "effects": self.effects}
-        return ActionModelSettings.model_validate(
-            {key: value.value for key, value in given.items() if value is not None}
-        )
+        named = {key: value.value for key, value in given.items() if value is not None}
+        return ActionModelSettings.model_validate({**named, "cautious": self.cautious})
 
 
 def learn_from_traces(
@@ -104,6 +105,7 @@ def _figures_of(model: ActionModel) -> dict[str, Any]:
         ],
         "unexplained": model.unexplained,
         "undecided": [str(atom) for atom in model.undecided],
+        "unseen": [str(atom) for atom in model.unseen],
     }
 
 
@@ -123,6 +125,9 @@ def _print(model: DomainModel, out: Path) -> None:
         if action.undecided:
             atoms = " ".join(map(str, action.undecided))
             console.print(f"  no state shows whether it changes {atoms}")
+        if action.unseen:
+            atoms = " ".join(map(str, action.unseen))
+            console.print(f"  no state shows whether it needs {atoms}")
     for name in _unseen(model):
         console.print(f"{name}: never seen to work, left out")
     console.print(f"written: {out / 'domain.pddl'} and what belongs to it")

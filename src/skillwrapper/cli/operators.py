@@ -71,6 +71,13 @@ def learn_from_file(
             help="In traces in parentheses, states say all that is known, not all that is true.",
         ),
     ] = False,
+    cautious: Annotated[
+        bool,
+        typer.Option(
+            "--cautious",
+            help="Where states are missing, what no state shows counts as a precondition.",
+        ),
+    ] = False,
     problem: Annotated[
         list[Path] | None,
         typer.Option(
@@ -86,14 +93,15 @@ def learn_from_file(
     as_json: JsonFlag = False,
 ) -> None:
     """Learn operators from transitions whose labels are known; no picture, no model."""
-    options = TraceOptions(failures, partial, tuple(problem or ()), negatives, effects)
+    options = TraceOptions(failures, partial, tuple(problem or ()), cautious, negatives, effects)
     if domain.lower().endswith(".pddl"):
         learn_from_traces(transitions, Path(domain), out, options, as_json=as_json)
         return
     if len(transitions) > 1 or options != TraceOptions():
         raise ConfigurationError(
-            "several files, --failures, --negatives, --effects, --partial and --problem are for "
-            f"PDDL domains: expected --domain to name a file that ends with .pddl, got '{domain}'"
+            "several files, --failures, --negatives, --effects, --partial, --cautious and "
+            "--problem are for PDDL domains: expected --domain to name a file that ends with "
+            f".pddl, got '{domain}'"
         )
     settings = run_settings(config, {"domain": ("--domain", domain)}, assignments or ()).learning
     declared = find_domain(domain).domain
