@@ -14,6 +14,7 @@ from planning_domains import (
     OBJECTS,
     POST,
     STARTS,
+    VALVES,
     instances,
     strips_of,
     walk,
@@ -49,8 +50,8 @@ def _states(domain: Strips) -> set[frozenset[str]]:
 
 @pytest.mark.parametrize(
     "text",
-    [FERRY, LAMPS, LOCKS, POST, BELLS],
-    ids=["boats", "lamps", "locks", "post", "bells"],
+    [FERRY, LAMPS, LOCKS, POST, BELLS, VALVES],
+    ids=["boats", "lamps", "locks", "post", "bells", "valves"],
 )
 @pytest.mark.parametrize("failures", [False, True], ids=["successes", "failures"])
 def test_the_learned_domain_is_the_true_one(text: str, failures: bool, tmp_path: Path) -> None:

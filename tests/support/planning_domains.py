@@ -112,7 +112,20 @@ BELLS = """
 """
 """One effect that comes about in two ways."""
 
+VALVES = """
+(define (domain valves)
+(:requirements :typing :negative-preconditions :conditional-effects)
+(:types valve tank)
+(:predicates (open ?v - valve) (feeds ?v - valve ?t - tank) (wet ?t - tank))
+(:action turn :parameters (?v - valve ?t - tank) :precondition (feeds ?v ?t)
+  :effect (and (when (open ?v) (not (open ?v))) (when (not (open ?v)) (and (open ?v) (wet ?t)))))
+(:action drain :parameters (?v - valve ?t - tank) :precondition (and (feeds ?v ?t) (open ?v))
+  :effect (not (wet ?t))))
+"""
+"""An action that makes true what was false, and false what was true."""
+
 OBJECTS = {
+    "valves": {"v": "valve", "w": "valve", "s": "tank", "t": "tank"},
     "bells": {"a": "bell", "b": "bell"},
     "locks": {"c": "chamber", "d": "chamber", "b": "barge"},
     "post": {"v": "van", "w": "van", "x": "bike", "o": "letter"},
@@ -122,6 +135,7 @@ OBJECTS = {
 }
 
 STARTS = {
+    "valves": frozenset({"feeds v s", "feeds w s", "feeds w t", "open v"}),
     "bells": frozenset({"wired a"}),
     "locks": frozenset({"water c low", "water d high", "waiting b low"}),
     "post": frozenset({"at x o", "free v", "free w", "paid o"}),

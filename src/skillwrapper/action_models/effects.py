@@ -134,14 +134,19 @@ def _explain(changed: Bits, seen: _Changes, surely: Bits, possible: Bits) -> Bit
 def _when(seen: _Changes, number: int, *, positive: bool) -> list[tuple[_Literal, ...]]:
     """Under what conditions an atom changes, any of which is enough; one without literals: always.
 
+    An addition did not come about wherever the atom was false after; a deletion, where it was true
+    before and after, as one that is undone by an addition is not seen.
+
     If no literals over the arguments tell some changes from what did not change, the condition
     that is found takes these in.
     """
-    absent = seen.false_before if positive else seen.before
-    ended, kept = (seen.after, seen.false_after) if positive else (seen.false_after, seen.after)
-    ready = seen.alone[:, number] & absent[:, number]
-    values = _values(seen.before, seen.false_before)
-    changed, unchanged = values[ready & ended[:, number]], values[ready & kept[:, number]]
+    values, alone = _values(seen.before, seen.false_before), seen.alone[:, number]
+    if positive:
+        changed = values[alone & seen.false_before[:, number] & seen.after[:, number]]
+        unchanged = values[alone & seen.false_after[:, number]]
+    else:
+        changed = values[alone & seen.before[:, number] & seen.false_after[:, number]]
+        unchanged = values[alone & seen.before[:, number] & seen.after[:, number]]
     if not len(unchanged) or not len(changed):
         return [()]
     together, left = _conjunction(changed, unchanged)
