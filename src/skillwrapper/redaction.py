@@ -12,6 +12,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Annotated
 from urllib.parse import quote, unquote, urlsplit
 
@@ -24,7 +25,10 @@ _SHORTEST = 6
 _NO_SECRETS = frozenset({"dummy", "empty", "local", "none", "none-needed", "not-needed", "ollama"})
 """What people set where a key is wanted and none is needed."""
 
-_USER_INFO = re.compile(r"(?<![\w+.-])([A-Za-z][A-Za-z0-9+.-]{0,30}://)[^\s/?#\"'<>]{1,1000}@")
+_USER_INFO = re.compile(
+    r"(?<![\w+.-])([A-Za-z][A-Za-z0-9+.-]{0,30}:/(?:/|(?=[^\s/?#\"'<>:]{1,200}:)))"
+    r"[^\s/?#\"'<>]{1,1000}@"  # of two slashes paths lose one
+)
 _QUERY = re.compile(
     r"([?&](?:access[_-]?token|api[_-]?key|auth|key|password|secret|sig|signature|token)=)"
     r"[^&#\s\"'<>]+",
@@ -35,6 +39,11 @@ _AFTER_A_NAME = re.compile(
     |client[_-]?secret|(?:access|auth|api|refresh|session)[_-]?token)["']?\s{0,3}[:=]\s{0,3}["']?)
     (?:(?:bearer|basic|token|digest|negotiate)\s{1,3})?[^\s"',;&{}<>]{4,}""",
     re.IGNORECASE | re.VERBOSE,
+)
+_AFTER_AN_OPTION = re.compile(
+    r"((?<![\w-])--?(?:[a-z]{1,20}-){0,3}(?:key|token|passw(?:or)?d|secret|credentials?)"
+    r"[\"']?(?:=|,?\s{1,3})[\"']?)(?![-\"'\s])[^\s\"'<>]{4,}",
+    re.IGNORECASE,
 )
 _AFTER_A_SCHEME = re.compile(
     r"\b([Bb]earer\s{1,3}|[Bb]asic\s{1,3}(?=[A-Za-z+/]{0,200}[\d=]))[A-Za-z0-9._~+/*=-]{8,}"
@@ -67,6 +76,7 @@ def redact(text: str) -> str:
     text = strip_user_info(text)
     text = _QUERY.sub(rf"\g<1>{MARK}", text)
     text = _AFTER_A_NAME.sub(rf"\g<1>{MARK}", text)
+    text = _AFTER_AN_OPTION.sub(rf"\g<1>{MARK}", text)
     text = _AFTER_A_SCHEME.sub(rf"\g<1>{MARK}", text)
     text = _PRIVATE_KEY.sub(rf"\g<1>{MARK}", text)
     return _FORMS.sub(MARK, text)
@@ -77,12 +87,12 @@ def without_secrets(text: str) -> str:
 
     For what robots, people and libraries say: they may know the environment, too.
     """
-    return Redactor.knowing((), os.environ).redact(text) if text else text
+    return _knowing_all(tuple(os.environ.items())).redact(text) if text else text
 
 
 def strip_user_info(text: str) -> str:
     """A URL, or a text with URLs, without the credentials in front of the hosts."""
-    return _USER_INFO.sub(r"\1", text) if "://" in text else text
+    return _USER_INFO.sub(r"\1", text) if ":/" in text else text
 
 
 def safe_address(address: str) -> str:
@@ -129,6 +139,11 @@ class Redactor:
             if secret in text:
                 text = text.replace(secret, MARK)
         return redact(text)
+
+
+@lru_cache(maxsize=1)
+def _knowing_all(variables: tuple[tuple[str, str], ...]) -> Redactor:
+    return Redactor.knowing((), dict(variables))
 
 
 def _forms(value: str) -> Iterator[str]:

@@ -166,6 +166,139 @@ def test_a_robot_that_tells_its_environment(tmp_path: Path) -> None:
     assert_clean(said, tmp_path)
 
 
+ON_THE_LINE = "planted-line-6174"
+"""Stands on a command line only: nobody knows that it is a secret, but for its option."""
+STARTED = """\
+import os
+import sys
+
+print("started", sys.argv, dict(os.environ), file=sys.stderr, flush=True)
+if "ends" in sys.argv:
+    sys.exit(3)
+if "shouts" in sys.argv:
+    print(dict(os.environ), flush=True)
+sys.argv[1:] = ["serve-robot", "cups"]
+from skillwrapper.cli.main import run
+run()
+"""
+
+
+def test_a_robot_process_that_repeats_all_that_it_was_given(tmp_path: Path) -> None:
+    shutil.copytree(CUPS, tmp_path / "cups", ignore=shutil.ignore_patterns("__pycache__"))
+    robot = tmp_path / "cups" / "robot.py"
+    text = robot.read_text().replace('"nothing to do"', 'f"nothing to do: {dict(os.environ)}"')
+    robot.write_text(f"import os\n{text}")
+    (tmp_path / "start.py").write_text(STARTED)
+    line = f"{sys.executable} start.py --token {ON_THE_LINE} --api-key={KEY}"
+    learn = ("learn", "cups", "--iterations", "1", "--budget", "4")
+    said = run(
+        tmp_path,
+        (*learn, "--out", "run", "--robot", line),
+        (*learn, "--out", "ended", "--robot", f"{line} ends"),
+        (*learn, "--out", "shouted", "--robot", f"{line} shouts"),
+        (*learn, "--out", "absent", "--robot", f"no-such-robot --password {ON_THE_LINE}"),
+        ("report", "run"),
+    )
+    assert "started" in said
+    assert "ended with exit code 3" in said
+    assert "other things go to standard error" in " ".join(said.split())
+    assert ON_THE_LINE not in said
+    assert_clean(said, tmp_path)
+
+
+def test_values_of_a_domain(tmp_path: Path) -> None:
+    folder = tmp_path / "elsewhere" / "cups"
+    shutil.copytree(CUPS, folder, ignore=shutil.ignore_patterns("__pycache__"))
+    text = (folder / "domain.yaml").read_text()
+    planted = f"{KEY} Bearer {TOKEN} token={TOKEN} http://robin:{PASSWORD}@host"
+    for old in ("A hand", "Cups", "something to drink", "a red cup", "The hand fills", "the cup"):
+        assert old in text
+        text = text.replace(old, f"{old} ({planted})")
+    (folder / "domain.yaml").write_text(text)
+    domain = "elsewhere/cups"
+    said = run(
+        tmp_path,
+        ("domain", domain),
+        ("domain", domain, "--json"),
+        ("learn", domain, "--out", "run", "--iterations", "1", "--budget", "4"),
+        ("learn", domain, "--out", "run", "--iterations", "2", "--budget", "4"),
+        ("learn", domain, "--out", "set", "--set", f"predicates=['full(?cup): {planted}']"),
+        ("show", "run"),
+        ("calls", "run", "--full", "--last", "0"),
+        ("report", "run"),
+        ("problems", domain, "--out", "problems.yaml"),
+    )
+    (folder / "domain.yaml").write_text(f"{text}\nrobt: [1, 2, 3, 4, 5, 6, '{KEY}', '{TOKEN}']\n")
+    said += run(tmp_path, ("domain", domain))
+    (folder / "domain.yaml").write_text(
+        text.replace("name: cups", f"name: [1, '{'x' * 30} {KEY}']")
+    )
+    said += run(tmp_path, ("domain", domain))
+    assert MARK in said
+    shutil.rmtree(folder)
+    assert MARK in (tmp_path / "run" / "domain.yaml").read_text()
+    assert_clean(said, tmp_path)
+
+
+def test_recordings_and_their_paths(tmp_path: Path) -> None:
+    shutil.copytree(CUPS, tmp_path / "cups", ignore=shutil.ignore_patterns("__pycache__"))
+    columns = "episode,skill,arguments,success,before,after"
+    recordings = {
+        "column": f"{columns},{KEY}\n1,Fill,hand mug,true,a.png,b.png,x\n",
+        "path": f"{columns}\n1,Fill,hand mug,true,http://robin:{PASSWORD}@h/a.png,b.png\n",
+        "query": f"{columns}\n1,Fill,hand mug,true,a.png?token={TOKEN},b.png\n",
+        "skill": f"{columns}\n1,{KEY},hand mug,true,a.png,b.png\n",
+        "argument": f"{columns}\n1,Fill,hand {TOKEN},true,a.png,b.png\n",
+        "truth": f"{columns}\n1,Fill,hand mug,{'x' * 40}{KEY},a.png,b.png\n",
+    }
+    lines = []
+    for name, text in recordings.items():
+        (tmp_path / "cups" / f"{name}.csv").write_text(text)
+        lines.append(("import", "cups", f"cups/{name}.csv", "--out", f"{name}-run"))
+    said = run(tmp_path, *lines)
+    shutil.rmtree(tmp_path / "cups")
+    assert said.count("error:") == len(lines)
+    assert_clean(said, tmp_path)
+
+
+ROS = """
+import os
+from skillwrapper.robots.rosbridge_robot import RosbridgeRobot, RosService
+
+def robot():
+    skill = RosService(os.environ["WAY"], "x/srv/X", lambda hand, cup: {"lamp": cup})
+    return RosbridgeRobot.connect(
+        {"Fill": skill, "Empty": skill},
+        {"top": "/camera"},
+        host=os.environ["ADDRESS"],
+        port=None,
+        connecting=2.0,
+    )
+"""
+
+
+def test_a_robot_behind_rosbridge(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("roslibpy", reason="the extra ros is not installed")
+    from rosbridge import LampServer  # noqa: PLC0415
+
+    shutil.copytree(CUPS, tmp_path / "cups", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "cups" / "robot.py").write_text(ROS)
+    domain = tmp_path / "cups" / "domain.yaml"
+    domain.write_text(domain.read_text().replace("robot.py:CupWorld", "robot.py:robot"))
+    learn = ("learn", "cups", "--iterations", "1", "--budget", "3", "--set", "scenes=[desk]")
+    said = ""
+    with LampServer(secret=f" {KEY} http://robin:{PASSWORD}@h/?token={TOKEN}") as server:
+        ways = {"broken": server.port, "put_out": server.port, "nowhere": 1}
+        for way, port in ways.items():
+            monkeypatch.setenv("WAY", f"/{way}")
+            monkeypatch.setenv("ADDRESS", f"ws://robin:{PASSWORD}@127.0.0.1:{port}/?token={TOKEN}")
+            said += run(tmp_path, (*learn, "--out", way))
+    assert "no such service" in said
+    assert "expected a connection" in said
+    assert "dark" in (tmp_path / "put_out" / "episodes" / "001.jsonl").read_text()
+    assert_clean(said, tmp_path)
+
+
 FORMS = [
     "sk-abcdefghijklmnop",
     "sk-proj-ab***********yz12",
@@ -191,6 +324,10 @@ FORMS = [
         "key {}.",
         "'Authorization': 'Bearer {}'",
         "http://u:{}@h/v1",
+        "pictures/http:/u:{}@h/a.png",
+        "robot --token {} -v",
+        "robot --api-key={}",
+        "['robot', '--password', '{}']",
         "?key={}&b=1",
         "x-api-key: {}",
     ],
@@ -218,6 +355,8 @@ def test_secrets_are_found_in_every_form_in_which_they_come_back() -> None:
         "See https://example.org/a@b and task-holding or disk-123456789",
         "key: the robot holds the bread",
         "authentication of the bearer",
+        "a low-key place; - key: none; one--token board; --keep closed",
+        "see:/kitchen/a@b",
     ],
 )
 def test_what_models_write_is_left_alone(text: str) -> None:

@@ -14,9 +14,14 @@ from websockets.sync.server import Server, ServerConnection, serve
 
 
 class LampServer:
-    """Action ``/light``, services ``/put_out`` and ``/reset``, topic ``/camera``."""
+    """Action ``/light``, services ``/put_out`` and ``/reset``, topic ``/camera``.
 
-    def __init__(self) -> None:
+    Args:
+        secret: what it says beside whatever failed.
+    """
+
+    def __init__(self, secret: str = "") -> None:
+        self._secret = secret
         self.lit: set[str] = set()
         self.seeds: list[tuple[int, str]] = []
         self.encoding = "rgb8"
@@ -73,13 +78,17 @@ class LampServer:
             case "call_service", "/put_out":
                 works = call["args"]["lamp"] in self.lit
                 self.lit.discard(call["args"]["lamp"])
-                return [_served(call, {"success": works, "message": "" if works else "dark"})]
+                return [
+                    _served(
+                        call, {"success": works, "message": "" if works else f"dark{self._secret}"}
+                    )
+                ]
             case "call_service", "/reset":
                 self.lit = set()
                 self.seeds.append((call["args"]["seed"], call["args"]["scene"]))
                 return [_served(call, {"success": call["args"]["seed"] >= 0})]
             case "call_service", "/broken":
-                return [{**_served(call, "no such service"), "result": False}]
+                return [{**_served(call, f"no such service{self._secret}"), "result": False}]
         return []
 
     def _message(self) -> dict[str, Any]:

@@ -10,6 +10,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from skillwrapper.redaction import without_secrets
+
 Location = tuple[str | int, ...]
 """Keys and indices that lead to a value, e.g. ``("skills", "Pick", "parameters", 0)``."""
 
@@ -87,7 +89,8 @@ def _printable(text: str) -> str:
 
 
 def shorten(text: str) -> str:
-    """A text that fits into a sentence."""
+    """A text that fits into a sentence, without secrets: of one that is cut none is known again."""
+    text = without_secrets(text)
     return text if len(text) < _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 3] + "..."
 
 

@@ -8,18 +8,25 @@ import selectors
 import shlex
 import signal
 import subprocess
+import sys
+import threading
 import time
+from typing import IO
 
 from skillwrapper.errors import ConfigurationError, RobotError
 from skillwrapper.files.mistakes import shorten
+from skillwrapper.redaction import without_secrets
 
 _LONGEST_LINE = 256 * 2**20
 _GRACE = 3.0
 """Seconds to end by itself."""
+_LAST_WORDS = 0.5
+"""Seconds to wait for what it said last; whatever it started may hold its standard error."""
+_LONGEST_SAID = 2**16
 
 
 class LineProcess:
-    """Starts a command and speaks to it.
+    """Starts a command and speaks to it; what it says on standard error is passed on, redacted.
 
     Args:
         command: as in a shell, without any of a shell's own signs; runs in the present folder.
@@ -31,6 +38,8 @@ class LineProcess:
     def __init__(self, command: str) -> None:
         self._name = f"robot {shorten(repr(command))}"
         self._process = _start(command, self._name)
+        self._said = threading.Thread(target=_pass_on, args=(self._process.stderr,), daemon=True)
+        self._said.start()
         self._received = bytearray()
         self._selector = selectors.DefaultSelector()
         self._selector.register(self._output, selectors.EVENT_READ)
@@ -68,6 +77,7 @@ class LineProcess:
                 self._process.wait(_GRACE)
                 break
         self._selector.close()
+        self._said.join(_LAST_WORDS)
         with contextlib.suppress(OSError):
             if self._process.stdout is not None:
                 self._process.stdout.close()
@@ -116,6 +126,16 @@ class LineProcess:
             os.killpg(self._process.pid, sign)
 
 
+def _pass_on(said: IO[bytes] | None) -> None:
+    """Say what a process says on standard error, until it closes that."""
+    if said is None:
+        return
+    with said:
+        while line := said.readline(_LONGEST_SAID):
+            sys.stderr.write(without_secrets(line.decode("utf-8", "replace")))
+            sys.stderr.flush()
+
+
 def _start(command: str, name: str) -> subprocess.Popen[bytes]:
     try:
         words = shlex.split(command)
@@ -128,6 +148,7 @@ def _start(command: str, name: str) -> subprocess.Popen[bytes]:
             words,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
             start_new_session=True,  # so that it ends with whatever it starts
         )
     except OSError as error:

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from typing import Any, Self, TypeAlias
 
 from skillwrapper.errors import MissingDependencyError, RobotError
+from skillwrapper.redaction import safe_address
 from skillwrapper.robots.ros_pictures import message_type, picture_of
 from skillwrapper.world.pictures import Look
 from skillwrapper.world.robot import Robot
@@ -153,8 +154,9 @@ class RosbridgeRobot(Robot):
         except Exception as error:
             _leave(ros)
             raise RobotError(
-                f"rosbridge at {host}:{port}: expected a connection within {connecting:g} s, got "
-                "none; start it with: ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
+                f"rosbridge at {safe_address(host)}:{port}: expected a connection within "
+                f"{connecting:g} s, got none; start it with: "
+                "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
             ) from error
         return cls(ros, skills, cameras, prepare=prepare, limit=limit)
 

@@ -19,6 +19,7 @@ from skillwrapper.vlm.limits import CallLimits
 from skillwrapper.vlm.protocol import Role
 from skillwrapper.vlm.retrying import RetryPolicy
 from skillwrapper.vlm.settings import AskingSettings, EndpointSettings
+from skillwrapper.world.domain_file import Prose
 
 FREE: Final = (
     "iterations",
@@ -166,7 +167,7 @@ class SharedSettings(BaseModel):
         default=(),
         description="scenes to learn in, one iteration each in turn; empty for all of the domain",
     )
-    predicates: tuple[str, ...] = Field(
+    predicates: tuple[Prose, ...] = Field(
         default=(),
         description="predicates that are known beforehand, each as name(?type, ...): meaning; they "
         "are tried before a model is asked",

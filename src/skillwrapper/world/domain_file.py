@@ -11,6 +11,8 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema
 
+from skillwrapper.redaction import without_secrets
+
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _MOST_NAMES = 10_000
 
@@ -27,6 +29,8 @@ Name = Annotated[
     WithJsonSchema({"type": "string", "pattern": f"^{_NAME.pattern}$"}),
 ]
 """A name that a model's reply can carry: no blank, comma, parenthesis or line break."""
+Prose = Annotated[str, AfterValidator(without_secrets)]
+"""What is shown to models and people, and kept in every run; keys have no business in it."""
 
 
 class Entry(BaseModel):
@@ -39,14 +43,14 @@ class TypeEntry(Entry):
     """An object type."""
 
     parents: list[Name] = Field(default_factory=list, description="direct supertypes")
-    description: str = Field("", description="what it means, one sentence")
+    description: Prose = Field("", description="what it means, one sentence")
 
 
 class ObjectEntry(Entry):
     """An object."""
 
     types: list[Name] = Field(min_length=1, description="its types, without supertypes")
-    description: str = Field("", description="how to recognise it in a picture")
+    description: Prose = Field("", description="how to recognise it in a picture")
 
 
 class ParameterEntry(Entry):
@@ -54,14 +58,14 @@ class ParameterEntry(Entry):
 
     name: Name = Field(description="unique within the skill")
     type: Name = Field(description="the type an argument must have")
-    role: str = Field("", description="the part an argument plays, one sentence")
+    role: Prose = Field("", description="the part an argument plays, one sentence")
 
 
 class SkillEntry(Entry):
     """A skill."""
 
     parameters: list[ParameterEntry] = Field(description="typed parameters")
-    description: str = Field("", description="what it is meant to do, one sentence")
+    description: Prose = Field("", description="what it is meant to do, one sentence")
 
 
 class ExpertEntry(Entry):
@@ -79,8 +83,8 @@ class DomainFile(Entry):
     """
 
     name: Name = Field(description="of the domain")
-    agent: str = Field(description="one sentence on the robot, used in prompts")
-    description: str = Field(description="what pictures show, used in prompts")
+    agent: Prose = Field(description="one sentence on the robot, used in prompts")
+    description: Prose = Field(description="what pictures show, used in prompts")
     failures_change_nothing: bool = Field(
         False, description="whether a failed skill is known to leave the state as it was"
     )

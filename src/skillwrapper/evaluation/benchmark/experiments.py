@@ -12,6 +12,7 @@ from skillwrapper.domains.discovery import plain_names
 from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.evaluation.methods.settings import ExperimentSettings
+from skillwrapper.world.domain_file import Prose
 
 MOST_SEEDS: Final = 1_000
 MOST_CELLS: Final = 10_000
@@ -56,7 +57,7 @@ class Experiment(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str = Field(pattern=r"^[A-Za-z0-9][\w-]*$")
-    description: str = ""
+    description: Prose = ""
     methods: tuple[str, ...] = Field(min_length=1)
     domains: tuple[str, ...] = Field(default_factory=plain_names, min_length=1)
     seeds: tuple[_Seed, ...] = Field(default=(0,), min_length=1, max_length=MOST_SEEDS)
