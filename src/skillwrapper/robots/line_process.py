@@ -65,8 +65,12 @@ class LineProcess:
             raise self._ended(what) from error
         return self._read_line(what, time.monotonic() + limit, limit)
 
-    def close(self) -> None:
-        """End the process and what it started: let it, ask it, make it."""
+    def close(self, patience: float = _GRACE) -> None:
+        """End the process and what it started: let it, ask it, make it.
+
+        Args:
+            patience: seconds to wait for each of the first two.
+        """
         with contextlib.suppress(OSError):
             if self._process.stdin is not None:
                 self._process.stdin.close()
@@ -74,7 +78,7 @@ class LineProcess:
             if sign is not None:
                 self._signal(sign)
             with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(_GRACE)
+                self._process.wait(patience)
                 break
         self._selector.close()
         self._said.join(_LAST_WORDS)

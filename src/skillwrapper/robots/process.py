@@ -27,6 +27,8 @@ from skillwrapper.world.robot import Robot, RunResult
 
 Kind = TypeVar("Kind", bound=Answer)
 
+_PATIENCE = 0.4
+"""Seconds that a process has to end by itself where we are stopped, and to end when it is told."""
 _SHOWN = 80
 """Characters of a wrong answer that are quoted."""
 
@@ -75,7 +77,7 @@ class ProcessRobot(Robot):
             self.stop()
         else:
             self._is_stopped = True
-            self._process.close()
+            self._process.close(_PATIENCE)
 
     def prepare(self, seed: int, scene: str = "") -> None:
         """Let it bring the world to a start."""

@@ -28,7 +28,6 @@ from skillwrapper.evaluation.methods.cell import Cell
 _RETRIES = 3
 """How often a cell is tried again whose process was killed."""
 _GRACE = 1.0
-"""Seconds that processes get to close what is open when they are stopped."""
 
 
 class Processes:
@@ -38,10 +37,11 @@ class Processes:
         path: folder of the experiment.
         count: how many at a time.
         task: runs a cell; importable by its name.
+        grace: seconds that processes get to close what is open when they are stopped.
     """
 
-    def __init__(self, path: Path, count: int, task: Task = work) -> None:
-        self._path, self._count, self._task = path, count, task
+    def __init__(self, path: Path, count: int, task: Task = work, grace: float = _GRACE) -> None:
+        self._path, self._count, self._task, self._grace = path, count, task, grace
         self._pool = self._make_pool()
         self._futures: dict[Future[CellOutcome], Cell] = {}
         self._failures: dict[Cell, int] = {}
@@ -77,7 +77,7 @@ class Processes:
         children = multiprocessing.active_children()
         for child in children:
             child.terminate()
-        latest = time.monotonic() + _GRACE
+        latest = time.monotonic() + self._grace
         for child in children:
             child.join(max(0.0, latest - time.monotonic()))
         for child in multiprocessing.active_children():  # also one that began meanwhile
