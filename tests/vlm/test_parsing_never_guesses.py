@@ -159,3 +159,10 @@ def test_every_manner_is_read_where_nothing_else_is_said(
 def test_what_follows_from_a_supposition_is_not_claimed(supposing: str) -> None:
     reply = f"{supposing} {ATOMS[0]} is true, {ATOMS[1]}: false. {ATOMS[2]}: true"
     assert parse_labels(reply, ATOMS).labels == {ATOMS[2]: True}
+
+
+def test_the_other_way_round_is_another_statement() -> None:
+    """Where only one of two was asked for, the other one's label once counted for it."""
+    asked = Atom("on_top_of", ("lettuce", "patty"))
+    parsed = parse_labels("on_top_of(patty, lettuce): false", [asked])
+    assert parsed.missing == (asked,)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from skillwrapper.vlm.parsing.verdicts import (
     Said,
     Verdict,
     ends_sentence,
+    is_inference,
     is_link,
     is_nothing_but_verdict,
     is_supposed,
@@ -26,7 +26,6 @@ from skillwrapper.vlm.parsing.verdicts import (
     said_in_front,
 )
 
-_MOST_ARGUMENTS = 4
 _NULLARY = re.compile(r"[\"'(]{0,3}([A-Za-z][\w-]*+)[\"')]{0,3} ?(?=[:=|?]|-|$|is )")
 _INTRODUCTION = re.compile(r"[\"'(|]{0,4}(?:[A-Za-z ]{1,20}#? ?\d{0,3} ?[:.)-] ?)?[\"'(|]{0,4}")
 
@@ -123,15 +122,7 @@ class StatementReader:
         known = tuple(term for term in terms if term is not None)
         if predicate is None or len(known) < len(call.arguments):
             return None
-        exact = self._exact.get((predicate, known))
-        return exact if exact is not None else self._reordered(predicate, known)
-
-    def _reordered(self, predicate: str, terms: tuple[str, ...]) -> int | None:
-        if len(terms) > _MOST_ARGUMENTS:
-            return None
-        orders = {self._exact.get((predicate, order)) for order in itertools.permutations(terms)}
-        fits = [number for number in orders if number is not None]
-        return fits[0] if len(fits) == 1 else None
+        return self._exact.get((predicate, known))  # in another order it is another statement
 
 
 def _without_statement(line: Line) -> LineReading:
@@ -154,7 +145,7 @@ def _said_of_each(text: str, calls: Sequence[Call]) -> list[Reading]:
         return [_said_of_one(*gaps)]
     fronts = [said_in_front(gap) for gap in gaps[:-1]]
     behinds = [said_behind(gap) for gap in gaps[1:]]
-    linked = [is_link(gap) for gap in gaps]
+    linked = [is_link(gap) or is_inference(gap) for gap in gaps]
     first_in_front = fronts[0][0] is not Said.NOTHING
     last_behind = behinds[-1] is not Said.NOTHING
     if first_in_front and last_behind:

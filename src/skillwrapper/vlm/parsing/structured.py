@@ -172,9 +172,28 @@ def _object_lines(data: _Object, depth: int) -> Iterator[str]:
     if said is not None:
         yield said
         return
+    pairs = _paired_lists(data)
+    if pairs is not None:
+        yield from pairs
+        return
     for key, value in data:
         if not is_reason(key) or isinstance(value, _Object):
             yield from _field_lines(key, value, depth)
+
+
+def _paired_lists(data: _Object) -> list[str] | None:
+    """``{"statements": ["f()", "g()"], "verdicts": [true, false]}``: nothing if one is shorter."""
+    lists = [[_text(item) for item in v] for _, v in data if not _is_plain(v) and _is_flat(v)]
+    named = [items for items in lists if all("(" in item for item in items)]
+    said = [items for items in lists if _VERDICT_WORDS.issuperset(map(str.casefold, items))]
+    if len(named) != 1 or len(said) != 1:
+        return None
+    fits = len(named[0]) == len(said[0])
+    return [f"{a}: {b}" for a, b in zip(*named, *said, strict=True)] if fits else []
+
+
+def _is_flat(items: list[Any]) -> bool:
+    return bool(items) and not isinstance(items, _Object) and all(map(_is_plain, items))
 
 
 def _field_lines(key: str, value: Any, depth: int) -> Iterator[str]:

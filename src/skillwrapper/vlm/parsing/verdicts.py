@@ -95,7 +95,8 @@ _REASON = _CAUSE.union(words_of("the it there i in here"))
 _CONDITION = frozenset(
     words_of(
         "if unless when whenever only except provided assuming or until once iff whether than "
-        "enough positive negative positives negatives alarm"
+        "enough positive negative positives negatives alarm before beforehand earlier previously "
+        "initially originally formerly"
     )
 )
 _CORRECTION = frozenset(
@@ -110,6 +111,9 @@ _SUPPOSED = words_for("condition").union(
     words_of("if unless whether assuming suppose supposing either neither when")
 )
 _LINKS = words_for("link").union(("and", "or", "nor", "&", "/", "and/or", "as well as"))
+_INFERENCE = re.compile(
+    r"\b(?:impl(?:y|ies)|entails?|iff|if and only if|whenever)\b", re.IGNORECASE
+)
 _UNSURE_PHRASE = re.compile(
     r"\b(?:(?:can(?:not|'t| not)|could(?: not|n't)|unable|impossible|hard|difficult)"
     r"(?: be)?(?: to)? (?:tell|told|say|said|see|seen|determined?|judged?|decided?|assess(?:ed)?"
@@ -159,6 +163,11 @@ def ends_sentence(text: str) -> bool:
 def is_link(text: str) -> bool:
     """Whether text between two statements makes one claim of them: ``S or T is true``."""
     return text[:20].strip(" ,").casefold() in _LINKS
+
+
+def is_inference(text: str) -> bool:
+    """Whether text between two statements infers one from the other: ``S is false implies T``."""
+    return _INFERENCE.search(text[:_LONGEST]) is not None
 
 
 def borne_out(said: Sequence[Reading]) -> frozenset[Family]:
@@ -211,6 +220,8 @@ def said_in_front(text: str) -> tuple[Reading, bool]:
     negation = _NOT_IN_FRONT.search(text[-12:])
     if negation:
         text = text[: len(text) - len(negation.group())]
+        if _NOT_IN_FRONT.search(text[-12:]):
+            return Said.AMBIGUOUS, True
     found: Reading = Said.NOTHING
     for segment in reversed(_segments(text[-_LONGEST:])):
         said = _said(segment, in_front=True)
