@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -40,6 +41,15 @@ sleep 600
 """
 """A planner that hangs, with a child that holds its standard output."""
 
+_ROBOT = """\
+import signal, sys, time
+signal.signal(signal.SIGTERM, signal.SIG_IGN)
+sys.stdin.readline()
+print('{}', flush=True)
+time.sleep(600)
+"""
+"""A robot that says hello, then nothing, and does not end when it is told."""
+
 _EXPERIMENT = """\
 name: stopping
 methods: [ours, expert, vila]
@@ -59,7 +69,7 @@ class Trial:
     Attributes:
         name: of the trial.
         line: the command without the program; ``{out}``, ``{url}``, ``{run}``, ``{picture}``,
-            ``{experiment}`` and ``{slow_experiment}`` are filled in.
+            ``{robot}``, ``{experiment}`` and ``{slow_experiment}`` are filled in.
         after: seconds until the signal.
         fault: what the server does from the third call on.
         hanging_planner: whether the planner hangs.
@@ -82,6 +92,11 @@ TRIALS = (
     ),
     Trial("learn, 8 calls", f"learn burger --out {{out}} {_SERVED} --parallel 8 --votes 8"),
     Trial("learn, 1 call", f"learn burger --out {{out}} {_SERVED}"),
+    Trial(
+        "learn, a robot that hangs",
+        f"learn burger --out {{out}} --robot '{sys.executable} {{robot}}'",
+        4.0,
+    ),
     Trial("verify, computing", "verify {run}", 3.0),
     Trial("verify, labels of a model", "verify {run} --labels model", 3.0),
     Trial("doctor", f"doctor {_SERVED}", 4.0),
@@ -124,8 +139,10 @@ def _try(trial: Trial, number: signal.Signals, place: Path, run: Path) -> str:
     with VlmServer(
         open_model("embedded", ModelSettings(), 0, "burger"), ServerSettings(faults=plan)
     ) as server:
-        line = trial.line.format(**_names(place, run, server.url)).split()
-        process = _start(line, trial, place, {_MARK: mark, "OPENAI_BASE_URL": server.url})
+        line = trial.line.format(**_names(place, run, server.url))
+        process = _start(
+            shlex.split(line), trial, place, {_MARK: mark, "OPENAI_BASE_URL": server.url}
+        )
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(trial.after)
             return f"ended by itself with {process.returncode}: {_end(place)}"
@@ -148,6 +165,7 @@ def _names(place: Path, run: Path, url: str) -> dict[str, object]:
     }
     for name, (model, address) in files.items():
         (place / f"{name}.yaml").write_text(_EXPERIMENT.format(model=model, url=address))
+    (place / "robot.py").write_text(_ROBOT)
     pictures = sorted((run / "images").iterdir())
     return {
         "out": place / "out",
@@ -155,6 +173,7 @@ def _names(place: Path, run: Path, url: str) -> dict[str, object]:
         "run": run,
         "picture": pictures[0],
         "picture2": pictures[-1],
+        "robot": place / "robot.py",
         **{name: place / f"{name}.yaml" for name in files},
     }
 

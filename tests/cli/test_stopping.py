@@ -90,6 +90,21 @@ def test_a_signal_while_everything_is_still_being_loaded(tmp_path: Path) -> None
     assert (returned, "Traceback" in said) == (130, False)
 
 
+EXECUTED = """\
+from skillwrapper.cli.stopping import stoppable
+text = "import os, signal, time; os.kill(os.getpid(), signal.SIGTERM); time.sleep(9)"
+stoppable(lambda: exec(text))
+"""
+
+
+def test_a_signal_while_text_is_executed(tmp_path: Path) -> None:
+    """While dataclasses were made, SIGTERM once ended ``python -m`` as if by Ctrl-C."""
+    (tmp_path / "executing.py").write_text(EXECUTED)
+    command = [sys.executable, "-m", "executing"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert (done.returncode, "to go on" in done.stderr) == (143, True)
+
+
 @pytest.mark.parametrize("kind", ["rate-limit", "slow"])
 def test_a_limit_on_time(kind: str, tmp_path: Path) -> None:
     with busy_for(60, kind) as server:

@@ -60,6 +60,17 @@ def test_a_robot_that_hangs_is_ended_in_time() -> None:
     hanging._process.close()
 
 
+@pytest.mark.parametrize("deaf", ["", "import signal; signal.signal(15, signal.SIG_IGN)\n"])
+def test_a_robot_that_hangs_is_ended_soon_where_we_are_stopped(deaf: str) -> None:
+    """Ctrl-C once waited three seconds for it, and three more."""
+    hanging = robot(f"{deaf}{HELLO}time.sleep(60)")
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt), hanging:
+        raise KeyboardInterrupt
+    assert time.monotonic() - began < 2.5
+    assert hanging._process._process.returncode is not None
+
+
 @pytest.mark.parametrize(
     ("command", "said"),
     [("", "got nothing"), ("no-such-robot", "cannot be started"), ("'a", "No closing quotation")],

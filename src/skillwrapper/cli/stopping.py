@@ -34,8 +34,16 @@ def stoppable(work: Callable[[], object]) -> None:
             raise SystemExit(stop.exit_code) from ended
 
 
+class StoppedError(KeyboardInterrupt):
+    """A signal came.
+
+    A kind of its own, because Python ends as if by Ctrl-C, whatever exit code it is given, where a
+    plain ``KeyboardInterrupt`` passes through text that is executed, as dataclasses do.
+    """
+
+
 class StopSignals:
-    """Turns signals into ``KeyboardInterrupt``, and remembers which one came.
+    """Turns signals into ``StoppedError``, and remembers which one came.
 
     Attributes:
         received: the last signal; None if none came.
@@ -70,4 +78,4 @@ class StopSignals:
             os.kill(os.getpid(), number)
             return
         self.received = signal.Signals(number)
-        raise KeyboardInterrupt
+        raise StoppedError
