@@ -47,6 +47,8 @@ WRONG = [
     ({"HTTPS_PROXY": "http://"}, "HTTPS_PROXY: expected a proxy"),
     ({"HTTPS_PROXY": "http://[::1"}, "HTTPS_PROXY: expected a proxy"),
     ({"SSL_CERT_FILE": "/nowhere/ca.pem"}, "SSL_CERT_FILE: expected a file with certificates"),
+    ({"SSL_CERT_FILE": "/etc/passwd"}, "/etc/passwd', which holds none"),
+    ({"HTTPS_PROXY": "http://pro\x01xy"}, "HTTPS_PROXY: expected a proxy"),
     ({"SSL_CERT_DIR": "/nowhere"}, "SSL_CERT_DIR: expected a folder"),
     ({"OPENAI_API_KEY": "\u201csk-abcdef\u201d"}, "OPENAI_API_KEY: character 1 of 11"),
     ({"OPENAI_API_KEY": '"sk-abcdef"'}, "without quotes"),
@@ -113,6 +115,13 @@ def test_this_machine_is_asked_without_a_proxy(host: str) -> None:
     variables = {"ALL_PROXY": "socks5://127.0.0.1:1", "SSL_CERT_FILE": "/nowhere"}
     assert Endpoint.find("m", f"http://{host}:8000/v1", variables).is_local
     assert not Endpoint.find("m", REMOTE, {}).is_local
+
+
+def test_a_proxy_that_nobody_serves_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HTTPS_PROXY", "http://127.0.0.1:1")
+    monkeypatch.setenv("NO_PROXY", "")
+    with pytest.raises(ProviderError, match=r"nobody answers .*the proxy that HTTPS_PROXY names"):
+        OpenAIModel(OpenAISettings("m", REMOTE)).complete(ASKED)
 
 
 def test_a_call_to_this_machine_passes_by_every_proxy(monkeypatch: pytest.MonkeyPatch) -> None:

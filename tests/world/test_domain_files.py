@@ -93,7 +93,7 @@ def test_mistake_in_a_scene_is_named_with_its_line(
         ("name: kitchen", "name: 3 kitchens", 1, "'name': expected a letter, then letters"),
         ("parents: [food]", "parents: [foot]", 8, "unknown type 'foot'; did you mean 'food'"),
         ("parents: [food]", "parents: food", 8, "expected a list, got 'food'"),
-        ("    types: [fruit]", "    types: []", 13, "at least 1 item"),
+        ("    types: [fruit]", "    types: []", 13, "at least 1 of them"),
         ("    types: [fruit]", "    types: [fruits]", 13, "unknown type 'fruits'"),
         ("name: food, type: food", "name: food, type: fod", 20, "unknown type 'fod'"),
         ("name: food, type: food", "name: robot, type: food", 18, "have the same name"),

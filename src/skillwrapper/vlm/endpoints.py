@@ -9,6 +9,7 @@ from __future__ import annotations
 import ipaddress
 import os
 import re
+import ssl
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from urllib.parse import SplitResult, unquote, urlsplit
@@ -37,6 +38,7 @@ class Endpoint:
         key: sent as a bearer token.
         login: user and password of an address that holds them; sent instead of the key.
         is_local: whether it is on this machine; then no proxy is used.
+        proxies: the variables that name proxies on the way there.
         redactor: knows everything that must not be written.
     """
 
@@ -44,6 +46,7 @@ class Endpoint:
     key: str = field(repr=False)
     login: tuple[str, str] | None = field(default=None, repr=False)
     is_local: bool = False
+    proxies: tuple[str, ...] = ()
     redactor: Redactor = field(default_factory=Redactor)
 
     @classmethod
@@ -69,13 +72,13 @@ class Endpoint:
         login = (unquote(parts.username or ""), unquote(parts.password or ""))
         is_local = _is_local(parts.hostname or "")
         key = _checked_key(model, variables, needed=parts.hostname == _OWN_HOST)
-        if not is_local:
-            _check_proxies(variables)
+        proxies = () if is_local else _checked_proxies(variables)
         if parts.scheme == "https" or not is_local:
             _check_certificates(variables)
         _check_headers(variables)
         redactor = Redactor.knowing((key, named), variables)
-        return cls(strip_user_info(named), key, login if any(login) else None, is_local, redactor)
+        told = login if any(login) else None
+        return cls(strip_user_info(named), key, told, is_local, proxies, redactor)
 
 
 def endpoint_address(base_url: str | None, environment: Mapping[str, str] | None = None) -> str:
@@ -146,12 +149,13 @@ def _named(character: str) -> str:
     return f"'{character}'"
 
 
-def _check_proxies(variables: Mapping[str, str]) -> None:
-    for upper in _PROXY_VARIABLES:
-        for name in (upper, upper.lower()):
-            value = variables.get(name, "").strip()
-            if value:
-                _check_proxy(name, value)
+def _checked_proxies(variables: Mapping[str, str]) -> tuple[str, ...]:
+    """The variables that name a proxy."""
+    names = [name for upper in _PROXY_VARIABLES for name in (upper, upper.lower())]
+    used = tuple(name for name in names if variables.get(name, "").strip())
+    for name in used:
+        _check_proxy(name, variables[name].strip())
+    return used
 
 
 def _check_proxy(name: str, value: str) -> None:
@@ -163,7 +167,7 @@ def _check_proxy(name: str, value: str) -> None:
         scheme, host = parts.scheme, parts.hostname if parts.port != 0 else None
     except ValueError as error:
         raise ConfigurationError(f"{shown} ({as_shown(str(error))}); {unset}") from None
-    if scheme not in _PROXY_SCHEMES or not host or re.search(r"\s", value):
+    if scheme not in _PROXY_SCHEMES or not host or re.search(r"[\s\x00-\x1f\x7f]", value):
         raise ConfigurationError(f"{shown}; {unset}")
     if scheme.startswith("socks"):
         try:
@@ -185,6 +189,20 @@ def _check_certificates(variables: Mapping[str, str]) -> None:
             raise ConfigurationError(
                 f"{name}: expected {what}, got '{as_shown(value)}', which is none; mend or unset it"
             )
+    file = variables.get("SSL_CERT_FILE", "")
+    if file and not _holds_certificates(file):
+        raise ConfigurationError(
+            f"SSL_CERT_FILE: expected a file with certificates, got '{as_shown(file)}', "
+            "which holds none; mend or unset it"
+        )
+
+
+def _holds_certificates(file: str) -> bool:
+    try:
+        ssl.create_default_context(cafile=file)
+    except (ssl.SSLError, OSError):
+        return False
+    return True
 
 
 def _check_headers(variables: Mapping[str, str]) -> None:

@@ -40,11 +40,13 @@ class ErrorTranslator:
         model: provider and model, for messages.
         endpoint: address of the endpoint, for messages; without credentials.
         redactor: knows the secrets that must not be repeated.
+        proxies: the variables that name proxies on the way.
     """
 
     model: str
     endpoint: str
     redactor: Redactor = field(default_factory=Redactor)
+    proxies: tuple[str, ...] = ()
 
     def translate(self, error: Exception) -> SkillWrapperError:
         """Our exception for one of the client's."""
@@ -107,10 +109,7 @@ class ErrorTranslator:
                     "TLS, write http:// in --base-url"
                 )
             if isinstance(cause, socket.gaierror):
-                return NobodyAnswersError(
-                    f"nobody answers at {self.endpoint}: there is no such host, or no network; "
-                    "mend --base-url"
-                )
+                return self._nobody(": there is no such host, or no network", "mend --base-url")
         # By name: the client raises these from one HTTP library or another.
         names = {type(cause).__name__ for cause in causes}
         if "ProxyError" in names:
@@ -119,10 +118,14 @@ class ErrorTranslator:
                 "HTTP_PROXY and ALL_PROXY"
             )
         if names & {"ConnectError", "UnsupportedProtocol"}:
-            return NobodyAnswersError(
-                f"nobody answers at {self.endpoint}; start the server, or mend --base-url"
-            )
+            return self._nobody("", "start the server, or mend --base-url")
         return TemporaryProviderError(f"the connection to {self.endpoint} broke")
+
+    def _nobody(self, why: str, advice: str) -> NobodyAnswersError:
+        if self.proxies:
+            advice += f", or the proxy that {' and '.join(self.proxies)} name"
+            advice += "s" if len(self.proxies) == 1 else ""
+        return NobodyAnswersError(f"nobody answers at {self.endpoint}{why}; {advice}")
 
     def lasting(self, error: SkillWrapperError) -> SkillWrapperError:
         """The same where there never was a server: waiting for one is of no use."""

@@ -94,7 +94,7 @@ class OpenAIModel:
         self._settings = settings
         endpoint = Endpoint.find(settings.model, settings.base_url)
         self._redactor = endpoint.redactor
-        self._errors = ErrorTranslator(self.name, endpoint.url, endpoint.redactor)
+        self._errors = ErrorTranslator(self.name, endpoint.url, endpoint.redactor, endpoint.proxies)
         self._price = price_of(settings.model, endpoint.url)
         self._encoder = PictureEncoder(settings.image_size)
         self._dialect, self._lock = Dialect(), threading.Lock()
