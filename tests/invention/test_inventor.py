@@ -70,6 +70,7 @@ class Study:
         *answers: Sequence[Predicate],
         active: Sequence[Predicate] = (),
         dormant: Sequence[Predicate] = (),
+        labeller: type[Labeller] = Labeller,
         **settings: object,
     ) -> None:
         self.proposer = Proposer(*answers)
@@ -78,9 +79,8 @@ class Study:
             self.words.set_dormant(predicate)
         self.decisions: list[CandidateDecision] = []
         chosen = LearningSettings(**{"unnoticed_everywhere": False, **settings})
-        labeller = Labeller(notebook.recorded, notebook)
         self.inventor = Inventor(
-            Fitter(labeller, FaithfulLearner(chosen)),
+            Fitter(labeller(notebook.recorded, notebook), FaithfulLearner(chosen)),
             self.words,
             self.proposer,
             chosen,
@@ -463,6 +463,21 @@ def test_an_unnoticed_change_is_asked_for_when_an_iteration_ends() -> None:
     assert study.active == ["round", "empty"]
     assert fit.unnoticed == ()
     assert fit.skill("Wave").operators[0].operator.add_effects
+
+
+def test_unnoticed_changes_wait_while_misreadings_are_as_frequent() -> None:
+    """What else has changed cannot be told then from what was misread (D24)."""
+    study = Study(silent_wave(), [SHINY], [EMPTY], active=[ROUND], labeller=Doubting)
+    study.inventor.invent()
+    assert study.proposer.asked == []
+
+
+class Doubting(Labeller):
+    """Takes a fiftieth of all readings for wrong."""
+
+    @property
+    def misread(self) -> float:
+        return 0.02
 
 
 def test_after_nothing_other_objects_are_looked_at_too_once_half_as_much_again_was_run() -> None:

@@ -62,3 +62,30 @@ def test_what_often_changes_around_failures_elsewhere_is_unsteady() -> None:
 def test_what_failures_change_of_their_arguments_may_be_their_doing() -> None:
     spills = [(f"full(b) #{n}", f"left(a) #{n}") for n in range(3)]
     assert FULL not in around_failures(*spills)
+
+
+class Doubting(Labeller):
+    """Takes a hundredth of all readings for wrong."""
+
+    @property
+    def misread(self) -> float:
+        return 0.01
+
+
+def judged_in_doubt(*starts: str) -> tuple[Predicate, ...]:
+    steadiness = Steadiness(Doubting(RecordedTransitions(ALIKE), Notebook(ALIKE)))
+    for start in starts:
+        steadiness.note(ALIKE.scene(), picture(start))
+    return steadiness.unsteady([FULL, LEFT])
+
+
+def test_a_predicate_that_is_often_misread_is_not_unsteady() -> None:
+    """Whether one cup is full is misread in a third of the pictures; left and right it is not."""
+    starts = [f"{'full(a)' if n % 3 == 0 else ''} left(a) #{n}" for n in range(9)]
+    assert judged_in_doubt(*starts) == ()
+
+
+def test_what_varies_of_all_things_is_unsteady_even_in_doubt() -> None:
+    sides = ("", "left(a)", "left(b)", "left(a) left(b)")
+    starts = [f"full(a) {sides[n % 4]} #{n}" for n in range(12)]
+    assert judged_in_doubt(*starts) == (LEFT,)

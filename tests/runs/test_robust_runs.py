@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,8 @@ from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.perception.settings import PerceptionSettings
 from skillwrapper.runs.algorithm import EarlierRun, LearningAlgorithm
 from skillwrapper.runs.archive import ArchiveWriter, RunArchive, make_archive
+from skillwrapper.runs.archive.pictures import PictureStore
+from skillwrapper.runs.events import RunEvent, StartSeen
 from skillwrapper.runs.results import LearningResult
 from skillwrapper.runs.settings import RunSettings
 
@@ -79,3 +82,26 @@ def test_a_resumed_run_says_the_same(tmp_path: Path) -> None:
     again = _run(tmp_path, ROBUST, earlier)
     assert again.figures == first.figures
     assert again.decoding == first.decoding
+
+
+@pytest.mark.parametrize(
+    ("learner", "restores", "seen"),
+    [("robust", True, 6), ("robust", False, 0), ("faithful", True, 0)],
+)
+def test_starts_are_looked_at_beforehand_where_they_tell_of_misreading(
+    tmp_path: Path, learner: str, restores: bool, seen: int
+) -> None:
+    """Only where labels are in doubt, and a reset is known to bring the same state back."""
+    domain = replace(lamp_domain(tmp_path), resets_restore_state=restores)
+    settings = ROBUST.model_copy(
+        update={"iterations": 1, "learning": LearningSettings(learner=learner)}
+    )
+    archive = make_archive(tmp_path / "run", settings, domain)
+    events: list[RunEvent] = []
+    observers = [ArchiveWriter(archive), events.append]
+    LearningAlgorithm(settings, LampEnvironment(domain), LampAssistant(), observers).run()
+    starts = [event for event in events if isinstance(event, StartSeen)]
+    assert len({event.seed for event in starts}) == len(starts) == seen
+    kept = PictureStore(archive.layout.images)
+    for event in starts:
+        assert kept.path(event.start.pictures[0].sha256).exists()

@@ -30,6 +30,8 @@ from skillwrapper.world.scenes import Scene
 _ORDER = list(InconsistencyKind)
 _TELLING = "it tells apart what nothing else does"
 _BURDEN = "it takes more operators than it explains transitions"
+_SELDOM = 0.005
+"""Where more readings are wrong, what else has changed cannot be told from what was misread."""
 
 
 class Proposer(Protocol):
@@ -119,10 +121,11 @@ class Inventor:
         ``max_trials`` candidates.
         """
         self._admit_new_data()
-        if self._settings.unnoticed:
+        asks = self._settings.unnoticed and self._fitter.labeller.misread <= _SELDOM
+        if asks:
             self._look_through_shelf()
             self._take_up_changes()
-        fit = self._mend(ends=self._settings.unnoticed)
+        fit = self._mend(ends=asks)
         if self._settings.keep_best:
             fit = self._keep_best(fit)
         self._open = self._causes(fit)

@@ -64,6 +64,14 @@ class LearningSettings(LearnerSettings):
         description="at so many of the starts a predicate may read otherwise, by mistake",
         json_schema_extra={"unit": "share of the starts"},
     )
+    starts: int = Field(
+        default=6,
+        ge=0,
+        description="so many starts are looked at before anything is executed, where labels are "
+        "decoded, resets bring the state back and show the same again: they tell which predicates "
+        "are steady",
+        json_schema_extra={"unit": "pictures"},
+    )
     screen: bool = Field(
         default=True,
         description="whether candidates are read on the pictures of the inconsistency first, and "

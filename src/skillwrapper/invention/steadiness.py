@@ -30,6 +30,9 @@ _SKILLS = 2
 """What failures change is a matter of their skill; not what changes around failures of so many."""
 _RARELY = 0.01
 """The share of failures that change what has nothing to do with them."""
+_OF_OTHERS = 0.025
+"""The share of readings at large that is expected to be wrong. What is seldom misread is taken into
+use first, and tells little of other predicates."""
 
 
 class Steadiness:
@@ -88,7 +91,8 @@ class Steadiness:
         fewer = np.minimum(true, false)
         misread = self._labeller.misread
         if misread:
-            return varies_in_truth(fewer.tolist(), (true + false).tolist(), misread)
+            mean = max(misread, _OF_OTHERS)
+            return varies_in_truth(fewer.tolist(), (true + false).tolist(), mean)
         return bool((fewer > self._tolerance * len(starts)).any())
 
     def _flickers(self, predicate: Predicate, around: Sequence[RecordedTransition]) -> bool:

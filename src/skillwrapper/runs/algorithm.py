@@ -42,14 +42,19 @@ from skillwrapper.runs.events import (
     RunEvent,
     RunFinished,
     SequenceChosen,
+    StartSeen,
 )
 from skillwrapper.runs.results import LearningResult, ReadingCosts, SceneLabels
 from skillwrapper.runs.settings import RunSettings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.recorded import RecordedTransitions
+from skillwrapper.world.capabilities import Replayable, supports
 from skillwrapper.world.environment import Environment
 from skillwrapper.world.episode import Episode, Transition
 from skillwrapper.world.observation import Observation
+
+_BEFOREHAND = 900
+"""No run has so many iterations; the starts that are looked at beforehand have later numbers."""
 
 
 class Respondent(SequenceProposer, Adviser, BatchAdviser, LabelProvider, Protocol):
@@ -107,6 +112,7 @@ class LearningAlgorithm:
     ) -> None:
         domain = environment.domain
         self._settings, self._observers = settings, tuple(observers)
+        self._environment = environment
         self._earlier = earlier or EarlierRun()
         names = settings.scenes or domain.scenes
         self._scenes = tuple(domain.scene(name).name for name in names)
@@ -139,11 +145,27 @@ class LearningAlgorithm:
             RobotError: if the environment fails.
             LimitReachedError: if a limit of the user's is reached; the run can be resumed.
         """
+        self._look_around()
         while self._iteration < self._settings.iterations and not self._is_over():
             self._iterate()
         result = self._result()
         self._tell(RunFinished(self._iteration, result))
         return result
+
+    def _look_around(self) -> None:
+        """See some starts beforehand, where only they tell what is misread from what varies (D24).
+
+        They are not recorded; so they are only looked at where a resumed run sees the same.
+        """
+        environment, domain = self._environment, self._environment.domain
+        tells = self._settings.decodes_labels and domain.resets_restore_state
+        if not tells or self._earlier.is_all or not supports(environment, Replayable):
+            return
+        for number in range(self._settings.learning.starts):
+            seed = self._settings.layout_seed(_BEFOREHAND + number)
+            start = environment.reset(seed=seed, scene=self._scenes[0])
+            self._inventor.note_start(environment.scene, start)
+            self._tell(StartSeen(0, environment.scene, seed, start))
 
     def _is_over(self) -> bool:
         """Whether the run has converged; iterations that are there already stay part of it."""

@@ -50,6 +50,21 @@ class IterationStarted(RunEvent):
 
 
 @dataclass(frozen=True)
+class StartSeen(RunEvent):
+    """A start was looked at before anything was executed; of iteration 0, in a resumed run too.
+
+    Attributes:
+        scene: the objects that are present.
+        seed: that of the reset.
+        start: what is seen.
+    """
+
+    scene: Scene
+    seed: int
+    start: Observation
+
+
+@dataclass(frozen=True)
 class EpisodeStarted(RunEvent):
     """The environment was reset, and the first skill chosen; not told of what was recorded before.
 

@@ -21,6 +21,7 @@ from skillwrapper.runs.archive.archive import RunArchive
 from skillwrapper.runs.archive.episode_files import EpisodeFile
 from skillwrapper.runs.archive.event_log import EventLog
 from skillwrapper.runs.archive.labels import truth_table
+from skillwrapper.runs.archive.pictures import PictureStore
 from skillwrapper.runs.archive.records import (
     DecisionRecord,
     DecodingRecord,
@@ -42,6 +43,7 @@ from skillwrapper.runs.events import (
     SequenceChosen,
     SkillExecuted,
     SkillRecalled,
+    StartSeen,
 )
 from skillwrapper.runs.results import LearningResult, SceneLabels
 from skillwrapper.symbols.describe import describe_model
@@ -65,6 +67,8 @@ class ArchiveWriter:
     def __call__(self, event: RunEvent) -> None:
         """Write an event down."""
         match event:
+            case StartSeen():
+                PictureStore(self._layout.images).save(event.start)
             case EpisodeStarted():
                 self._start_episode(event)
             case SkillExecuted():
