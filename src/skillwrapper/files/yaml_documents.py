@@ -17,6 +17,7 @@ Model = TypeVar("Model", bound=BaseModel)
 
 _MOST_BYTES = 1_000_000
 _MOST_NODES = 200_000
+_DEEPEST = 100
 _DATES = "tag:yaml.org,2002:timestamp"
 
 
@@ -160,6 +161,19 @@ def compose(text: str) -> yaml.Node | None:
 
 class _Loader(yaml.SafeLoader):
     """Loads plain data only; refuses keys that are given twice, and keeps dates as text."""
+
+    _depth = 0
+
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        """The next node; refused where it stands too deep, long before Python gives up."""
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
+            problem = f"expected at most {_DEEPEST} levels of nesting"
+            raise yaml.composer.ComposerError(None, None, problem, mark)
+        node: yaml.Node | None = super().compose_node(parent, index)
+        self._depth -= 1
+        return node
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
         """The value of a node."""
