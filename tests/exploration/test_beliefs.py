@@ -46,3 +46,13 @@ def test_what_succeeded_may_have_more_to_act_on_where_other_things_hold() -> Non
     same, other = found.unlike[:, place("Open", "h", "front")].tolist()
     assert same == 0.0 < other < 1.0
     assert found.unlike[0, place("Light", "h", "lamp")] == 1.0  # never done
+
+
+def test_what_failed_may_work_where_other_things_hold() -> None:
+    house = House()
+    house.run(INSTANCES[place("Open", "h", "front")])
+    house.run(INSTANCES[place("Tie", "h", "front", "back")])
+    found = expect(house, "open(front)", "open(front) open(back) airy()")
+    same, other = found.elsewhere[:, place("Tie", "h", "front", "back")].tolist()
+    assert same == 0.0 < other < 1.0
+    assert found.elsewhere[0, place("Light", "h", "lamp")] == 1.0  # never done

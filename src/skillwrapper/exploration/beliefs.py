@@ -37,6 +37,7 @@ class Expectations:
             tells its objects from others may have no name yet.
         unlike: how new the whole state is beside those in which the instance succeeded, by pairs of
             what holds in it.
+        elsewhere: the same beside those in which it failed.
     """
 
     success: NDArray[np.float64]
@@ -47,6 +48,7 @@ class Expectations:
     pairs_done: NDArray[np.float64]
     untried: NDArray[np.float64]
     unlike: NDArray[np.float64]
+    elsewhere: NDArray[np.float64]
 
 
 _FIGURES = len(fields(Expectations))
@@ -119,8 +121,13 @@ class SkillBeliefs:
         failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
         promise = self._promise(space, seen, attempts)
         untried = self._untried(seen, attempts, instances)
-        unlike = self._unlike(useful, labels, instances)[attempts.rows, attempts.which]
-        return [failed.alone, failed.pairs, promise, done.alone, done.pairs, untried, unlike]
+        unlike, elsewhere = (
+            self._unlike(useful, labels, instances, success)[attempts.rows, attempts.which]
+            for success in (True, False)
+        )
+        return [
+            failed.alone, failed.pairs, promise, done.alone, done.pairs, untried, unlike, elsewhere
+        ]  # fmt: skip
 
     def _untried(
         self, seen: Features, attempts: Attempts, instances: list[SkillInstance]
@@ -133,13 +140,13 @@ class SkillBeliefs:
         return np.array([key not in self._tried for key in keys], dtype=np.float64)
 
     def _unlike(
-        self, space: AtomSpace, states: Labels, instances: list[SkillInstance]
+        self, space: AtomSpace, states: Labels, instances: list[SkillInstance], success: bool
     ) -> NDArray[np.float64]:
-        """Beside all that held where the instance succeeded (states, instances)."""
+        """Beside all that held where the instance succeeded, or failed (states, instances)."""
         tables = [table for table in self._tables if table.space == space]
         found, seen = np.ones((len(states), len(instances))), _values(states)
         for number, instance in enumerate(instances):
-            rows = [table.before[_successes(table, instance)] for table in tables]
+            rows = [table.before[_attempts_at(table, instance, success)] for table in tables]
             earlier = np.vstack([states[:0], *rows])
             found[:, number] = Novelty.of(seen, _values(earlier)).pairs
         return found
@@ -190,10 +197,10 @@ def _values(states: Labels) -> Features:
     return np.hstack([states == TRUE, states == FALSE])
 
 
-def _successes(table: SkillTable, instance: SkillInstance) -> NDArray[np.bool_]:
-    """The successes of an instance (n,)."""
+def _attempts_at(table: SkillTable, instance: SkillInstance, success: bool) -> NDArray[np.bool_]:
+    """The attempts at an instance that succeeded, or failed (n,)."""
     own = [number for number, other in enumerate(table.instances) if other == instance]
-    found: NDArray[np.bool_] = table.success & np.isin(table.which, own)
+    found: NDArray[np.bool_] = (table.success == success) & np.isin(table.which, own)
     return found
 
 

@@ -92,11 +92,13 @@ class NextSkill:
         instance: the skill instance; None to end the episode.
         reason: why, in words.
         sequence: how the whole sequence was chosen, where it was chosen just now.
+        resumes: of an end, whether what is left of the budget is better used after a reset.
     """
 
     instance: SkillInstance | None
     reason: str = ""
     sequence: SequenceChoice | None = None
+    resumes: bool = False
 
 
 class Explorer(Protocol):

@@ -26,6 +26,8 @@ class Lookahead:
         step: the number of the skill instance that leads there (nodes,); -1 for the first one.
         chance: how likely one gets there (nodes,), as far as one can rely on the model's ways.
         sure: whether an instance surely applies (states, instances).
+        edges: state, instance and state after of what surely applies (edges, 3);
+            -1 after where that is none of these states.
     """
 
     states: Labels
@@ -36,6 +38,7 @@ class Lookahead:
     step: NDArray[np.intp]
     chance: NDArray[np.float64]
     sure: NDArray[np.bool_]
+    edges: NDArray[np.intp]
 
     def path(self, node: int) -> list[int]:
         """The numbers of the skill instances that lead to a node."""
@@ -129,6 +132,9 @@ def _as_arrays(
         depth.append(depth[before] + 1 if before >= 0 else 0)
         works = 1.0 if before < 0 or reliability is None else float(reliability[number])
         chance.append(chance[before] * works if before >= 0 else 1.0)
+    edges = _edges(graph, numbers.tolist(), scene)
+    sure = np.zeros((len(numbers), len(scene.instances)), dtype=bool)
+    sure[edges[:, 0], edges[:, 1]] = True
     return Lookahead(
         graph.states(numbers.tolist()),
         state_of.ravel(),
@@ -137,7 +143,8 @@ def _as_arrays(
         np.array(parent, dtype=np.intp),
         np.array(step, dtype=np.intp),
         np.array(chance, dtype=np.float64),
-        _sure(graph, numbers.tolist(), scene),
+        sure,
+        edges,
     )
 
 
@@ -155,9 +162,10 @@ def _steps(
     ]
 
 
-def _sure(graph: StateGraph, states: list[int], scene: SceneRoles) -> NDArray[np.bool_]:
-    sure = np.zeros((len(states), len(scene.instances)), dtype=bool)
+def _edges(graph: StateGraph, states: list[int], scene: SceneRoles) -> NDArray[np.intp]:
     row = {state: number for number, state in enumerate(states)}
-    for state, edge in graph.edges(states):
-        sure[row[state], scene.number[edge.instance]] = True
-    return sure
+    found = [
+        (row[state], scene.number[edge.instance], row.get(edge.after, -1))
+        for state, edge in graph.edges(states)
+    ]
+    return np.array(found, dtype=np.intp).reshape(-1, 3)

@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.exploration.histories import Deeds, Histories
 from skillwrapper.exploration.roles import Kind, RoleNumbers, Roles, SceneRoles
 from skillwrapper.grounding import Labels
 from skillwrapper.grounding.abstract_states import different_rows
@@ -59,6 +60,7 @@ class Memory:
 
     Attributes:
         roles: the present roles of the scene's objects (objects,).
+        deeds: what was done with them so far (objects,), and ``histories`` of all attempts.
         signatures: of every attempt so far, in order of time.
         seen: the signatures that were tried, by skill.
         surprises: how often predictions were wrong.
@@ -84,6 +86,8 @@ class Memory:
         self._done: set[tuple[bytes, SkillInstance]] = set()
         self._kept: dict[SkillInstance, tuple[float, float]] = {}
         self.roles: Roles = np.zeros(0, dtype=np.intp)
+        self.deeds: Deeds = np.zeros(0, dtype=np.int64)
+        self.histories = Histories()
         self.signatures: list[Signature] = []
         self.seen: dict[str, set[Signature]] = defaultdict(set)
         self.surprises = Surprises()
@@ -99,6 +103,7 @@ class Memory:
     def start(self, scene: Scene) -> None:
         """Begin an episode: nothing was done yet with any object."""
         self.roles = self.scene(scene).at_start
+        self.deeds = np.zeros(len(self.roles), dtype=np.int64)
         self._vain.clear()
         self._done.clear()
 
@@ -152,11 +157,11 @@ class Memory:
         shares = [1.0 if right == times else (right + 1) / (times + 2) for right, times in kept]
         return np.array(shares, dtype=np.float64)
 
-    def hope(self, what: str | Kind) -> float:
+    def hope(self, what: str | Kind | SkillInstance) -> float:
         """What hope there is, 0 to 1, for what never succeeded: less with every failure.
 
         Args:
-            what: a skill, or a skill with certain types of arguments.
+            what: a skill, a skill with certain types of arguments, or an instance.
         """
         return _worn(self.failures[what])
 

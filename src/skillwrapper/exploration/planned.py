@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 
 from skillwrapper.exploration.beliefs import Beliefs
 from skillwrapper.exploration.explorer import NextSkill, Situation
+from skillwrapper.exploration.histories import Touched, nearest_unheard
 from skillwrapper.exploration.lookahead import Lookahead, look_ahead, roll_out
 from skillwrapper.exploration.memory import Memory
+from skillwrapper.exploration.prospects import price
 from skillwrapper.exploration.roles import SceneRoles
 from skillwrapper.exploration.settings import ExplorationSettings
 from skillwrapper.exploration.worth import Values, Weights, Worth, weigh
@@ -24,6 +26,7 @@ from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.search import StateGraph
+from skillwrapper.learning.fitting import Fit
 from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
 from skillwrapper.symbols.operators import Operator
 from skillwrapper.world.domain import Domain
@@ -33,6 +36,8 @@ from skillwrapper.world.skills import SkillInstance
 
 _NOTHING = 1e-3
 """What is worth less is not worth a skill."""
+_UNHEARD = 5
+"""Of skills that failed so often it is looked at what was done with their arguments before."""
 _MISSED = 0.5
 """What an attempt from afar is still worth, every time that the way to it has led elsewhere."""
 
@@ -56,6 +61,8 @@ class Thought:
         causes: what the model cannot explain, one inconsistency for each cause.
         graph: the states of the model.
         space: their ground atoms.
+        left: how many skills may still be run in this episode.
+        touched: with what the skill instances have to do.
     """
 
     scene: SceneRoles
@@ -65,18 +72,25 @@ class Thought:
     causes: tuple[Inconsistency, ...]
     graph: StateGraph
     space: AtomSpace
+    left: int
+    touched: Touched
 
     @property
     def state(self) -> bytes:
-        """The labels of the present state."""
-        labels: bytes = self.lookahead.states[self.lookahead.state[0]].tobytes()
+        """The same as bytes."""
+        return self.labels.tobytes()
+
+    @property
+    def labels(self) -> Labels:
+        """The labels (atoms,) of the present state."""
+        labels: Labels = self.lookahead.states[self.lookahead.state[0]]
         return labels
 
     @property
     def scores(self) -> Values:
         """What every attempt is worth for its price (nodes, instances)."""
-        lookahead = self.lookahead
-        return self.values * (lookahead.chance / (lookahead.depth + 1))[:, np.newaxis]
+        likely = self.values * self.lookahead.chance[:, np.newaxis]
+        return likely / price(self.lookahead, self.values, self.left)
 
     @property
     def is_idle(self) -> bool:
@@ -150,6 +164,7 @@ class PlannedExplorer:
             self._memory.start(situation.scene)
         elif last is not None and last.space == situation.space:
             self._compare(last, situation)
+            self._touch(last, situation)
         scene, here = self._memory.scene(situation.scene), situation.state.tobytes()
         seen = situation.observation.key
         failed = [self._memory.has_failed(seen, here, instance) for instance in scene.instances]
@@ -171,8 +186,32 @@ class PlannedExplorer:
         values[self._memory.done(lookahead.states, scene.instances)[lookahead.state]] = -_NOTHING
         values[0, tried] = -_NOTHING
         graph, space = self._graph_of(situation), situation.space
-        self._thought = Thought(scene, lookahead, worth, values, causes, graph, space)
+        left, touched = situation.left, self._touched(situation)
+        self._thought = Thought(
+            scene, lookahead, worth, values, causes, graph, space, left, touched
+        )
         return self._thought
+
+    def _unheard(self, situation: Situation) -> frozenset[str]:
+        """The skills that never succeeded, often enough for what no predicate tells to matter."""
+        tries = self._memory.histories.tries
+        return frozenset(
+            skill for skill, of_skill in situation.fit.skills.items()
+            if not of_skill.operators and tries[skill] >= _UNHEARD
+        )  # fmt: skip
+
+    def _touched(self, situation: Situation) -> Touched:
+        skills = [skill.name for skill in situation.fit.domain.skills]
+        scene = self._memory.scene(situation.scene)
+        return Touched(scene, situation.space, skills, _silent(situation.fit))
+
+    def _touch(self, last: Thought, situation: Situation) -> None:
+        """Take note of what the last skill had to do with."""
+        done = situation.done[-1]
+        if done.success:
+            number = last.scene.number[done.instance]
+            touched = last.touched.by(number, last.labels, situation.state)
+            self._memory.deeds = self._memory.deeds | touched
 
     def _compare(self, last: Thought, situation: Situation) -> None:
         """Take note of whether the last skill led where it was said to."""
@@ -188,8 +227,11 @@ class PlannedExplorer:
     def choose(self, situation: Situation, thought: Thought) -> NextSkill:
         """What comes of a thought."""
         if thought.is_idle and thought.is_stuck and situation.done:
-            return NextSkill(None, "all was tried here, and nothing leads away")
+            return NextSkill(None, "all was tried here, and nothing leads away", resumes=True)
         self._target = None
+        unheard = self._try_unheard(situation, thought)
+        if unheard is not None:
+            return unheard
         if thought.is_idle:
             return self._wander(thought)
         scores = thought.scores + 1e-6 * self._chance.random(len(thought.scene.instances))
@@ -198,6 +240,38 @@ class PlannedExplorer:
         self._target = thought.scene.instances[number] if node else None
         reason = self._reason(situation, thought, node, number)
         return NextSkill(thought.scene.instances[first], reason)
+
+    def _try_unheard(self, situation: Situation, thought: Thought) -> NextSkill | None:
+        """The first step to a skill that never succeeded, after what was never done before it.
+
+        None if there is no such way, or something else is worth more for its price.
+        """
+        skills = self._unheard(situation)
+        if not skills:
+            return None
+        instances, histories = thought.scene.instances, self._memory.histories
+        way = nearest_unheard(
+            self._graph_of(situation),
+            situation.state,
+            self._memory.deeds,
+            thought.scene,
+            thought.touched,
+            histories,
+            skills=skills,
+            depth=situation.left - 1,
+            most=self._settings.weighed // 10,
+            blocked=np.flatnonzero(thought.values[0] < 0).tolist(),
+        )
+        if not way:
+            return None
+        wanted, away = instances[way[-1]], len(way) - 1
+        worth = self._weights.unheard * histories.hope(wanted.skill)
+        if worth < float(thought.scores.max(initial=0.0)):
+            return None
+        reason = f"{wanted.skill} was never tried after what was done with these objects by then"
+        reason = f"on the way, {away} more to go: {reason}" if away else reason
+        self._target = wanted if away else None
+        return NextSkill(instances[way[0]], reason)
 
     def _wander(self, thought: Thought) -> NextSkill:
         """Every other time a skill that surely works, else one that was tried most rarely.
@@ -240,14 +314,13 @@ class PlannedExplorer:
             fit, situation.space, lookahead.states, scene.instances, doubt
         )
         unproven = frozenset(s for s, of_skill in fit.skills.items() if not of_skill.operators)
-        silent = frozenset(s for s, of in fit.skills.items() if of.unnoticed is not None)
         return weigh(
             lookahead,
             expected,
             scene,
             self._memory,
             unproven=unproven,
-            silent=silent,
+            silent=_silent(fit),
             causes=causes,
             weights=self._weights,
         )
@@ -262,6 +335,11 @@ class PlannedExplorer:
                 self._memory.pursue(thought.causes, thought.scene, instance)
             predicted = None if thought is None else thought.is_predicted(instance)
             state = b"" if thought is None else thought.state
+            if thought is not None:
+                history = thought.touched.history(
+                    thought.scene.number[instance], self._memory.deeds, thought.labels
+                )
+                self._memory.histories.note(instance.skill, history)
             self._memory.note(scene, transition, state=state, predicted=predicted)
             self._noted, self._thought = self._noted + 1, None
 
@@ -287,3 +365,8 @@ class PlannedExplorer:
         doubts = [version_space.doubts(space, attempts) for version_space in beliefs.spaces]
         _, conditions = max(doubts, key=lambda found: found[0])
         return f"tests whether {instance} needs {' and '.join(conditions)}"
+
+
+def _silent(fit: Fit) -> frozenset[str]:
+    """The skills of which no success seems to change anything."""
+    return frozenset(skill for skill, of in fit.skills.items() if of.unnoticed is not None)

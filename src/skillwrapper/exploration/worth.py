@@ -32,6 +32,10 @@ class Weights:
             hope for its skill.
         silent: a skill that never seemed to change anything, in a state that is as new as can be.
         elsewhere: any other skill in such a state: what it changes may hang on things far away.
+        vain: an instance that failed so far, in a state that is as new as can be beside those.
+        unheard: so much every skill of a way to an attempt is worth, as a share of the hope for it,
+            if the attempt is at a skill that never succeeded, and skills had to do with its
+            arguments that had not before any other attempt where the same was seen.
         failing: newness where the model predicts a failure, times the entropy of how often that
             was wrong of late.
         least_failing: the least of that product.
@@ -50,6 +54,8 @@ class Weights:
     untried: float = 0.05
     silent: float = 0.5
     elsewhere: float = 0.1
+    vain: float = 0.1
+    unheard: float = 0.05
     failing: float = 0.4
     least_failing: float = 0.05
     working: float = 0.5
@@ -147,6 +153,8 @@ def weigh(
         untried = np.maximum(expected.untried[of_node, number], _PLAYED * played)
         untried *= weights.untried * memory.hope(instance.skill)
         new[:, number] = np.where(sure[:, number], 0.0, np.maximum(new[:, number], untried))
+        far = weights.vain * memory.hope(instance) * np.sqrt(expected.elsewhere[of_node, number])
+        new[:, number] = np.maximum(new[:, number], far)
         other = weights.silent if instance.skill in silent else weights.elsewhere
         unlike = memory.patience(instance.skill) * np.sqrt(expected.unlike[of_node, number])
         new[:, number] = np.where(sure[:, number], other * unlike, new[:, number])
