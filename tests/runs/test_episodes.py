@@ -64,8 +64,8 @@ class Run:
     def __call__(self) -> Episode:
         recorded = self.archive.episode(1)
         if recorded is not None:
-            return self.runner.follow(1, recorded, "default", self.choose)
-        return self.runner.run(1, 7, "default", self.choose)
+            return self.runner.follow(1, 1, recorded, "default", self.choose)
+        return self.runner.run(1, 1, 7, "default", self.choose)
 
 
 def crash_after(archive: RunArchive, domain: Domain, skills: int) -> None:

@@ -119,8 +119,11 @@ class ReportContents:
         """
         latest, history = archive.latest(), RunHistory.read(archive)
         settings, model, labels = archive.settings(), latest.model, latest.labels
-        beyond = beyond_readings(settings.domain, latest, (i.episode for i in history.iterations))
-        strips = [lay_out(i.number, i.episode, labels, beyond) for i in history.iterations]
+        beyond = beyond_readings(settings.domain, latest, history.episodes)
+        strips = [
+            lay_out(number, episode, labels, beyond)
+            for number, episode in enumerate(history.episodes, start=1)
+        ]
         richest = sorted(strips, key=lambda s: (-s.changes, s.number))[:most_episodes]
         times = [event.time for event in archive.events()]
         return cls(

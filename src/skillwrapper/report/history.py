@@ -30,25 +30,30 @@ class Iteration:
 
     Attributes:
         number: from 1.
-        episode: what was executed.
+        episodes: what was executed.
         decisions: what was decided, in order.
         summary: figures at its end.
     """
 
     number: int
-    episode: Episode
+    episodes: tuple[Episode, ...]
     decisions: tuple[DecisionRecord, ...]
     summary: SummaryRecord
 
     @property
+    def transitions(self) -> tuple[Transition, ...]:
+        """What was executed, skill by skill."""
+        return tuple(t for episode in self.episodes for t in episode.transitions)
+
+    @property
     def executions(self) -> int:
         """How many skills were executed in this iteration."""
-        return len(self.episode.transitions)
+        return len(self.transitions)
 
     @property
     def successes(self) -> int:
         """How many of them succeeded."""
-        return sum(t.success for t in self.episode.transitions)
+        return sum(t.success for t in self.transitions)
 
     @property
     def lasting(self) -> tuple[DecisionRecord, ...]:
@@ -78,13 +83,22 @@ class RunHistory:
         Raises:
             UserError: if a file is missing or damaged.
         """
-        pairs = zip(archive.iterations(), archive.episodes(), strict=True)
-        return cls(tuple(Iteration(i.number, e, i.decisions, i.summary) for i, e in pairs))
+        done, episodes, earlier = [], archive.episodes(), 0
+        for found in archive.iterations():
+            own = episodes[earlier : found.episodes]
+            done.append(Iteration(found.number, own, found.decisions, found.summary))
+            earlier = found.episodes
+        return cls(tuple(done))
+
+    @property
+    def episodes(self) -> tuple[Episode, ...]:
+        """All episodes."""
+        return tuple(e for i in self.iterations for e in i.episodes)
 
     @cached_property
     def transitions(self) -> tuple[Transition, ...]:
         """All transitions; certificate and inconsistencies count them from 0."""
-        return tuple(t for i in self.iterations for t in i.episode.transitions)
+        return tuple(t for i in self.iterations for t in i.transitions)
 
     @property
     def successes(self) -> int:

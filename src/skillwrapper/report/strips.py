@@ -66,7 +66,7 @@ class EpisodeStrips:
     """A whole episode.
 
     Attributes:
-        number: of the iteration.
+        number: of the episode.
         strips: one under the other.
         changes: how many truth values changed.
         always: atoms that were true all the time.

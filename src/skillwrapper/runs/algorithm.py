@@ -133,6 +133,7 @@ class LearningAlgorithm:
         self._convergence = Convergence(self._fitter)
         self._converged = False
         self._iteration = 0
+        self._left, self._resumes = 0, False
         self._transitions: list[Transition] = []
         self._episodes: list[Episode] = []
         self._decisions: list[list[PredicateDecision]] = []
@@ -189,9 +190,9 @@ class LearningAlgorithm:
     def _iterate(self) -> None:
         self._iteration += 1
         self._decisions.append([])
-        budget = self._settings.exploration.budget
-        self._tell(IterationStarted(self._iteration, self._settings.iterations, budget))
-        self._finish(self._explore())
+        self._left = self._settings.exploration.budget
+        self._tell(IterationStarted(self._iteration, self._settings.iterations, self._left))
+        self._explore()
         self._converged = self._settings.until_converged and self._convergence.is_reached()
         self._inventor.invent()
         if self._settings.learning.prune:
@@ -201,20 +202,31 @@ class LearningAlgorithm:
         self._convergence.remember(result.fit)
         self._tell(IterationFinished(self._iteration, result, self._labels(result)))
 
-    def _explore(self) -> Episode:
+    def _explore(self) -> None:
+        """Run an episode, and others where the explorer ends one with some of the budget left."""
+        self._resumes = True
+        while self._resumes and self._left > 0:
+            self._resumes = False
+            number = len(self._episodes) + 1
+            recorded = self._earlier.recorded(number)
+            episode = self._run_episode(number, recorded)
+            self._finish(episode)
+            self._left -= len(episode.transitions)
+            self._resumes &= recorded is None or not recorded.given
+
+    def _run_episode(self, number: int, recorded: EpisodeSoFar | None) -> Episode:
         scene = self._scenes[(self._iteration - 1) % len(self._scenes)]
-        recorded = self._earlier.recorded(self._iteration)
         if recorded is not None:
-            return self._runner.follow(self._iteration, recorded, scene, self._next_skill)
-        seed = self._settings.layout_seed(self._iteration)
-        return self._runner.run(self._iteration, seed, scene, self._next_skill)
+            return self._runner.follow(self._iteration, number, recorded, scene, self._next_skill)
+        seed = self._settings.layout_seed(number)
+        return self._runner.run(self._iteration, number, seed, scene, self._next_skill)
 
     def _next_skill(self, done: EpisodeSoFar) -> NextSkill:
         """What the explorer chooses to run next, as long as the budget lasts."""
         self._take(done.to_episode())
         if not done.transitions:
             self._inventor.note_start(done.scene, done.start)
-        left = self._settings.exploration.budget - len(done.transitions)
+        left = self._left - len(done.transitions)
         if left <= 0:
             return NextSkill(None, "the budget is spent")
         situation = Situation(
@@ -226,6 +238,7 @@ class LearningAlgorithm:
             read=lambda space: self._labeller.read(done.scene, done.observation, space),
         )
         chosen = self._explorer.next_skill(situation)
+        self._resumes = chosen.resumes
         if chosen.sequence is not None:
             self._tell(SequenceChosen(self._iteration, chosen.sequence))
         return chosen
@@ -252,6 +265,7 @@ class LearningAlgorithm:
             fit=fit,
             certificate=certify(fit),
             unresolved=distinct_causes(fit.inconsistencies),
+            iterations=self._iteration,
             episodes=tuple(self._episodes),
             decisions=tuple(map(tuple, self._decisions)),
             converged=self._converged,

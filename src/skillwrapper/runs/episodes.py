@@ -63,11 +63,12 @@ class EpisodeRunner:
     def __init__(self, environment: Environment, tell: Observer) -> None:
         self._environment, self._tell = environment, tell
 
-    def run(self, number: int, seed: int, scene: str, choose: Choose) -> Episode:
+    def run(self, iteration: int, number: int, seed: int, scene: str, choose: Choose) -> Episode:
         """A new episode.
 
         Args:
-            number: of the iteration.
+            iteration: in which it is run.
+            number: of the episode in the run.
             seed: for the reset.
             scene: name of the scene to start in.
             choose: decides what to execute.
@@ -80,15 +81,18 @@ class EpisodeRunner:
         first = choose(
             done
         )  # before anything is recorded: a model that is not there leaves nothing
-        self._tell(EpisodeStarted(number, done.scene, seed, start))
-        self._go_on(number, done, choose, first)
+        self._tell(EpisodeStarted(iteration, number, done.scene, seed, start))
+        self._go_on(iteration, number, done, choose, first)
         return done.to_episode()
 
-    def follow(self, number: int, recorded: EpisodeSoFar, scene: str, choose: Choose) -> Episode:
+    def follow(
+        self, iteration: int, number: int, recorded: EpisodeSoFar, scene: str, choose: Choose
+    ) -> Episode:
         """An episode that was recorded, continued if it was cut short.
 
         Args:
-            number: of the iteration.
+            iteration: in which it was run.
+            number: of the episode in the run.
             recorded: what was recorded.
             scene: name of the scene that was asked for.
             choose: decides what to execute; asked in any case, so that choices by chance are the
@@ -105,11 +109,11 @@ class EpisodeRunner:
             if not recorded.given:
                 _check_choice(number, transition.instance, chosen.instance)
             done.transitions.append(transition)
-            self._tell(SkillRecalled(number, transition, chosen.reason))
+            self._tell(SkillRecalled(iteration, transition, chosen.reason))
         following = choose(done)
         is_over = following.instance is None or recorded.given
         if not is_over and self._stands_at_end(recorded, scene):
-            self._go_on(number, done, choose, following)
+            self._go_on(iteration, number, done, choose, following)
         return done.to_episode()
 
     def _stands_at_end(self, recorded: EpisodeSoFar, scene: str) -> bool:
@@ -122,7 +126,9 @@ class EpisodeRunner:
             return True
         return False
 
-    def _go_on(self, number: int, done: EpisodeSoFar, choose: Choose, following: NextSkill) -> None:
+    def _go_on(
+        self, iteration: int, number: int, done: EpisodeSoFar, choose: Choose, following: NextSkill
+    ) -> None:
         while following.instance is not None:
             outcome = self._environment.execute(following.instance)
             transition = Transition(
@@ -133,7 +139,9 @@ class EpisodeRunner:
                 changed=outcome.changed,
             )
             done.transitions.append(transition)
-            self._tell(SkillExecuted(number, transition, outcome.message, following.reason))
+            self._tell(
+                SkillExecuted(iteration, number, transition, outcome.message, following.reason)
+            )
             following = choose(done)
 
     def _repeat(self, recorded: EpisodeSoFar, scene: str) -> None:
@@ -153,7 +161,7 @@ class EpisodeRunner:
 def _check_choice(number: int, recorded: SkillInstance, chosen: SkillInstance | None) -> None:
     if chosen != recorded:
         raise RunFolderError(
-            f"iteration {number}: {recorded} was recorded, and this version chooses "
+            f"episode {number}: {recorded} was recorded, and this version chooses "
             f"{chosen or 'the end of the episode'} instead; resume with the version that made the "
             "run (config.yaml)"
         )

@@ -69,11 +69,13 @@ class EpisodeStarted(RunEvent):
     """The environment was reset, and the first skill chosen; not told of what was recorded before.
 
     Attributes:
+        episode: its number in the run, from 1.
         scene: the objects that are present.
         seed: that of the reset.
         start: what is seen.
     """
 
+    episode: int
     scene: Scene
     seed: int
     start: Observation
@@ -95,11 +97,13 @@ class SkillExecuted(RunEvent):
     """A skill was run to its end; not told of what was recorded before.
 
     Attributes:
+        episode: number of the episode in the run, from 1.
         transition: what came of it.
         message: why it failed, for people.
         reason: why it was run, for people.
     """
 
+    episode: int
     transition: Transition
     message: str = ""
     reason: str = ""

@@ -12,13 +12,15 @@ Count = Annotated[int, Field(ge=0, le=2**53)]
 class RunFigures(BaseModel):
     """What a run has done and learned, in numbers.
 
-    ``evaluation_calls`` are the calls that reading the pictures took, ``..._reasking`` those that
-    it would take to ask every predicate on every picture after each invention.
+    ``episodes`` is missing where every iteration was one. ``evaluation_calls`` are the calls that
+    reading the pictures took, ``..._reasking`` those that it would take to ask every predicate on
+    every picture after each invention.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
 
     iterations: Count
+    episodes: Count | None = None
     converged: bool
     executions: Count
     predicates: Count

@@ -51,6 +51,7 @@ def write_fit(archive: RunArchive, known: Recollection, fit: Fit) -> LearningRes
         fit=fit,
         certificate=certify(fit),
         unresolved=distinct_causes(fit.inconsistencies),
+        iterations=known.latest.number,
         episodes=known.episodes,
         decisions=(),
         converged=kept.converged,

@@ -57,7 +57,8 @@ class LearningResult:
         fit: vocabulary, operators and what is inconsistent.
         certificate: Lemma 1 and Theorem 1 on the recorded data.
         unresolved: one inconsistency for each cause that is left.
-        episodes: what was executed, an episode each iteration.
+        iterations: how many were run.
+        episodes: what was executed, one episode or more in every iteration.
         decisions: on predicates, for each iteration in order.
         converged: whether the last iteration brought nothing new; only told if asked for.
         readings: calls that reading the pictures took.
@@ -69,6 +70,7 @@ class LearningResult:
     fit: Fit
     certificate: Certificate
     unresolved: tuple[Inconsistency, ...]
+    iterations: int
     episodes: tuple[Episode, ...]
     decisions: tuple[tuple[PredicateDecision, ...], ...]
     converged: bool
@@ -93,16 +95,12 @@ class LearningResult:
         return len(self.transitions)
 
     @property
-    def iterations(self) -> int:
-        """How many iterations were run."""
-        return len(self.episodes)
-
-    @property
     def figures(self) -> RunFigures:
         """The result in numbers."""
         kinds = Counter(i.kind for i in self.fit.inconsistencies)
         return RunFigures(
             iterations=self.iterations,
+            episodes=len(self.episodes),
             converged=self.converged,
             executions=self.executions,
             predicates=len(self.fit.predicates),

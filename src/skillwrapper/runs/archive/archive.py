@@ -70,6 +70,11 @@ class ArchivedIteration:
         """Figures at its end."""
         return read_json(self.folder / "summary.json", SummaryRecord)
 
+    @property
+    def episodes(self) -> int:
+        """How many episodes there are up to its end: one an iteration where nothing is said."""
+        return self.number if self.summary.episodes is None else self.summary.episodes
+
     @cached_property
     def certificate(self) -> CertificateRecord:
         """Lemma 1 and Theorem 1 on the recorded data."""
@@ -224,7 +229,8 @@ class RunArchive:
         Raises:
             FileError: if one is missing or damaged.
         """
-        numbers = range(1, self.layout.finished_iterations() + 1)
+        finished = self.iterations()
+        numbers = range(1, (finished[-1].episodes if finished else 0) + 1)
         return tuple(self._finished_episode(number) for number in numbers)
 
     def iterations(self) -> tuple[ArchivedIteration, ...]:

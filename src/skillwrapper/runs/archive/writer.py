@@ -80,11 +80,11 @@ class ArchiveWriter:
         self._log(event)
 
     def _start_episode(self, event: EpisodeStarted) -> None:
-        EpisodeFile(self._layout, event.iteration).start(event.scene, event.seed, event.start)
+        EpisodeFile(self._layout, event.episode).start(event.scene, event.seed, event.start)
 
     def _record(self, event: SkillExecuted) -> None:
         done = event.transition
-        EpisodeFile(self._layout, event.iteration).add(done, done.before, event.message)
+        EpisodeFile(self._layout, event.episode).add(done, done.before, event.message)
 
     def _write_iteration(self, event: IterationFinished) -> None:
         """Describe an iteration; the summary comes last, and marks it finished."""
