@@ -6,11 +6,10 @@ The folder of the experiment must be on a file system that all machines of the c
 from __future__ import annotations
 
 import importlib
-import os
 import signal
 import threading
-from collections.abc import Iterator, Set
-from contextlib import contextmanager, suppress
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +19,6 @@ from skillwrapper.evaluation.methods.cell import Cell
 
 _LOCAL = "local"
 _SLICE = 0.25
-_GRACE = 0.3
-"""Seconds that Ray's own processes get to end when an experiment is stopped."""
 _RETRIES = 3
 """How often Ray runs a cell again whose worker was killed."""
 
@@ -85,7 +82,7 @@ def open_ray_workers(path: Path, address: str) -> Iterator[Workers]:
         ray = importlib.import_module("ray")
     except ImportError as error:
         raise MissingDependencyError("Ray", "pip install 'skillwrapper[ray]'") from error
-    mine, before = not ray.is_initialized(), _children()
+    mine = not ray.is_initialized()
     if mine:
         options = {"include_dashboard": False} if address == _LOCAL else {}
         try:
@@ -95,45 +92,6 @@ def open_ray_workers(path: Path, address: str) -> Iterator[Workers]:
             raise ConfigurationError(f"--ray {address}: found no Ray cluster ({error})") from error
     try:
         yield RayWorkers(path, ray)
-    except BaseException:
-        if mine:
-            with _hurried(_children() - before):
-                ray.shutdown()
-        raise
-    if mine:
-        ray.shutdown()
-
-
-@contextmanager
-def _hurried(servers: Set[int]) -> Iterator[None]:
-    """Kill processes that do not end by themselves: Ray waits a second for each of its servers.
-
-    Meanwhile signals change nothing: we are ending, and Ray sends one where a server is gone.
-    """
-    hurry = threading.Timer(_GRACE, _kill_all, (servers,))
-    hurry.start()
-    try:
-        with _signals_kept():
-            if threading.current_thread() is threading.main_thread():
-                for number in (signal.SIGINT, signal.SIGTERM):
-                    signal.signal(number, signal.SIG_IGN)
-            yield
     finally:
-        hurry.cancel()
-
-
-def _kill_all(processes: Set[int]) -> None:
-    for process in processes & _children():
-        with suppress(OSError):
-            os.kill(process, signal.SIGKILL)
-
-
-def _children() -> set[int]:
-    """The processes that this one started; none where the system does not tell."""
-    found = set()
-    for file in Path("/proc").glob("[0-9]*/stat"):
-        with suppress(OSError):
-            _, _, state = file.read_text(errors="replace").rpartition(")")
-            if int(state.split()[1]) == os.getpid():
-                found.add(int(file.parent.name))
-    return found
+        if mine:
+            ray.shutdown()
