@@ -54,7 +54,7 @@ class Weights:
     untried: float = 0.05
     silent: float = 0.5
     elsewhere: float = 0.1
-    vain: float = 0.1
+    vain: float = 0.03
     unheard: float = 0.05
     failing: float = 0.4
     least_failing: float = 0.05
