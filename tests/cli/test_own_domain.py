@@ -7,6 +7,7 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +80,8 @@ def test_what_was_learned_is_exact(printed: Printed) -> None:
 def test_both_scenes_were_learned_in(folder: Path) -> None:
     episodes = sorted((folder / "run" / "episodes").glob("*.jsonl"))
     scenes = [json.loads(path.read_text().splitlines()[0])["scene"]["name"] for path in episodes]
-    assert scenes == ["kitchen", "desk", "kitchen", "desk"]
+    # One scene an iteration, in one episode or several.
+    assert [name for name, _ in groupby(scenes)] == ["kitchen", "desk", "kitchen", "desk"]
 
 
 def test_pictures_of_several_cameras_are_planned_from(printed: Printed) -> None:

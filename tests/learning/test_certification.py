@@ -49,6 +49,8 @@ def test_nothing_wrong() -> None:
         "violations": [],
         "lemma1_violations": 0,
         "theorem1_violations": 0,
+        "explained": 1.0,
+        "left_out": [],
     }
 
 

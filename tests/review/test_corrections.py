@@ -81,7 +81,7 @@ def test_learning_on_keeps_what_was_corrected(run: RunArchive) -> None:
     domain = run.settings().domain
     for again in (
         lambda: learn_recorded(run.path),
-        lambda: learn({"domain": domain, "iterations": 4, "exploration.budget": 12}, run.path),
+        lambda: learn({"domain": domain, "iterations": 4, "exploration.budget": 15}, run.path),
     ):
         again()
         predicates = run.latest().model.predicate_by_name

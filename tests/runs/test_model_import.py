@@ -190,7 +190,7 @@ def test_an_imported_model_stays_when_learning_goes_on(
 ) -> None:
     learned, imported = operators_of(run), edited(run, file)
     assert imported != learned
-    again = ("--iterations", 3, "--budget", 12, "--seed", 0)
+    again = ("--iterations", 3, "--budget", 15, "--seed", 0)
     assert command("learn", run.settings().domain, "--out", run.path, *again) == 0
     assert "those that were imported" in capsys.readouterr().err
     assert operators_of(RunArchive.open(run.path)) == imported

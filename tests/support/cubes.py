@@ -16,7 +16,7 @@ EPISODES = (SKILLS, ("Pick(arm, green_cube)", "PutIn(arm, green_cube, box)", "Cl
 def learn_cubes(folder: Path) -> Path:
     """The folder of a short run in the world of a project that is started beside it."""
     start_project(folder / "cubes")
-    settings = {"domain": str(folder / "cubes"), "iterations": 3, "exploration.budget": 12}
+    settings = {"domain": str(folder / "cubes"), "iterations": 3, "exploration.budget": 15}
     learn(settings, folder / "run")
     return folder / "run"
 
