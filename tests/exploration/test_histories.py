@@ -7,6 +7,7 @@ from garden import GARDEN, MODEL, OPEN_LEFT, SHUT_LEFT, SPACE, state
 from notebook import make_domain
 
 from skillwrapper.exploration.histories import Deeds, Histories, Touched, nearest_unheard
+from skillwrapper.exploration.memory import Memory
 from skillwrapper.exploration.roles import RoleNumbers, SceneRoles
 from skillwrapper.grounding import AtomSpace, GroundModel
 from skillwrapper.grounding.search import StateGraph
@@ -87,6 +88,10 @@ def test_deeds_of_this_episode_count() -> None:
 
 
 def test_hope_wears_off_with_every_history() -> None:
-    hopes = [tried(*((n, False) for n in range(known))).hope("Shut") for known in range(3)]
+    memory = Memory(GARDEN)
+    hopes = []
+    for known in range(3):
+        memory.histories = tried(*((n, False) for n in range(known)))
+        hopes.append(memory.hope_of_history("Shut"))
     assert hopes == sorted(hopes, reverse=True)
     assert hopes[0] == 1

@@ -26,9 +26,6 @@ View = frozenset[tuple[str, tuple[int | str, ...]]]
 History = tuple[tuple[int, ...], View]
 """What was done with each of the arguments, and what holds of them."""
 
-_PATIENCE = 3
-"""After three times so many histories hope is half of what it was."""
-
 
 class Histories:
     """What had been done with the arguments, and what was seen of them, whenever a skill was tried.
@@ -50,10 +47,9 @@ class Histories:
         """Whether a skill was never tried after that."""
         return history not in self._tried.get(skill, ())
 
-    def hope(self, skill: str) -> float:
-        """What hope there is, 0 to 1, that a skill needs a history: less with every one."""
-        deeds = {history[0] for history in self._tried.get(skill, ())}
-        return float(np.sqrt(_PATIENCE / (_PATIENCE + len(deeds))))
+    def different(self, skill: str) -> int:
+        """After how many different deeds a skill was tried."""
+        return len({deeds for deeds, _ in self._tried.get(skill, ())})
 
 
 class Touched:

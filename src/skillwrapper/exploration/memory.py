@@ -165,6 +165,10 @@ class Memory:
         """
         return _worn(self.failures[what])
 
+    def hope_of_history(self, skill: str) -> float:
+        """What hope there is, 0 to 1, that a skill needs a history: less with every one."""
+        return _worn(self.histories.different(skill))
+
     def patience(self, skill: str) -> float:
         """What patience is left, 0 to 1, with a skill that changes nothing whenever it succeeds."""
         return _worn(self.successes[skill])

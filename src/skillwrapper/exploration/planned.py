@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,7 +87,7 @@ class Thought:
         labels: Labels = self.lookahead.states[self.lookahead.state[0]]
         return labels
 
-    @property
+    @cached_property
     def scores(self) -> Values:
         """What every attempt is worth for its price (nodes, instances)."""
         likely = self.values * self.lookahead.chance[:, np.newaxis]
@@ -265,7 +266,7 @@ class PlannedExplorer:
         if not way:
             return None
         wanted, away = instances[way[-1]], len(way) - 1
-        worth = self._weights.unheard * histories.hope(wanted.skill)
+        worth = self._weights.unheard * self._memory.hope_of_history(wanted.skill)
         if worth < float(thought.scores.max(initial=0.0)):
             return None
         reason = f"{wanted.skill} was never tried after what was done with these objects by then"

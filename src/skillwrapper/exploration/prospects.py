@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.exploration.lookahead import Lookahead
-
-Values = NDArray[np.float64]
+from skillwrapper.exploration.worth import Values
 
 
 def price(lookahead: Lookahead, values: Values, left: int) -> Values:
