@@ -436,6 +436,45 @@ def test_a_likeness_that_leaves_more_inconsistent_than_it_resolves_is_taken_back
     assert {i.kind for i in fit.inconsistencies} == {InconsistencyKind.PRECONDITION}
 
 
+def blurred(times: int) -> Notebook:
+    """Taking takes an empty hand; ``near`` comes and goes with no reason."""
+    notebook = Notebook(KITCHEN)
+    near = ("near(a, x)", "near(a, x) near(a, y)", "near(a, y)", "near(b, x) near(a, x)", "")
+    for number in range(times):
+        before, after = (near[(number * step + step) % len(near)] for step in (1, 3))
+        notebook.success(f"empty(r) {before} #{number}", "Take(r, a)", f"held(a) {after}")
+        notebook.failure(f"{before} #{number}", "Take(r, a)")
+    return notebook
+
+
+def test_what_leaves_far_more_inconsistent_goes_before_anything_is_asked() -> None:
+    study = Study(blurred(20), [ROUND] * 9, active=[EMPTY, HELD, NEAR])
+    study.inventor.invent()
+    assert study.active == ["empty", "held"]
+    assert study.proposer.asked == []
+
+
+def test_the_name_of_a_change_goes_too_if_it_leaves_far_more_inconsistent() -> None:
+    study = Study(blurred(20), active=[EMPTY, HELD])
+    study.words.accept(NEAR, for_change=True)
+    study.inventor.invent()
+    assert study.active == ["empty", "held"]
+
+
+def test_the_name_of_a_change_may_leave_a_little_inconsistent() -> None:
+    study = Study(blurred(4), active=[EMPTY, HELD])
+    study.words.accept(NEAR, for_change=True)
+    fit = study.inventor.invent()
+    assert fit.inconsistencies
+    assert study.active == ["empty", "held", "near"]
+
+
+def test_what_takes_more_than_it_explains_goes_also_when_no_question_is_left() -> None:
+    study = Study(blurred(4), active=[EMPTY, HELD, NEAR], max_inventions=0)
+    study.inventor.invent()
+    assert study.active == ["empty", "held"]
+
+
 def test_same_questions_same_answers_same_vocabulary() -> None:
     """D14"""
     answers = ([SHINY, ROUND], [HELD, EMPTY], [ON], [FREE, NEAR])

@@ -4,7 +4,7 @@ predicate, keep it if it helps."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -30,6 +30,9 @@ from skillwrapper.world.scenes import Scene
 _ORDER = list(InconsistencyKind)
 _TELLING = "it tells apart what nothing else does"
 _BURDEN = "it takes more operators than it explains transitions"
+_FAR_LESS = 2 / 3
+_MANY = 5.0
+"""A model is far better than another one if it costs at most this share, and so many less."""
 _SELDOM = 0.005
 """Where more readings are wrong, what else has changed cannot be told from what was misread."""
 
@@ -156,28 +159,43 @@ class Inventor:
         left inconsistent, it may be one that resolved an inconsistency: a likeness of what is
         meant keeps that out.
         """
+        self._throw_off()
         retracted: set[Predicate] = set()
-        while self._rounds_left and self._trials_left > 0:
-            self._rounds_left -= 1
+        while True:
             fit = self._fitter.fit(self._vocabulary.active)
-            inconsistency = self._next(fit, unnoticed=ends)
+            may_ask = self._rounds_left and self._trials_left > 0
+            inconsistency = self._next(fit, unnoticed=ends) if may_ask else None
             if inconsistency is not None:
+                self._rounds_left -= 1
                 self._resolve(inconsistency, fit)
                 continue
             burdens = self._burdens(fit, retracted)
             if not burdens:
-                break
+                return fit
             retracted.update(burdens)
             self._retract(burdens)
-        return self._fitter.fit(self._vocabulary.active)
 
     def _burdens(self, fit: Fit, spared: set[Predicate]) -> tuple[Predicate, ...]:
         """What takes more than it explains; names of changes only where all is consistent."""
         changes = {p for p in self._vocabulary.active if p.name in self._vocabulary.changes}
+        return self._find_burdens(fit, spared | changes if fit.witnesses else spared)
+
+    def _throw_off(self) -> None:
+        """Take back what leaves far more inconsistent than it explains, before more is asked.
+
+        Also names of changes: what they bring up first is little (D26).
+        """
+        fit = self._fitter.fit(self._vocabulary.active)
+        burdens = self._find_burdens(fit) if fit.witnesses else ()
+        left = [p for p in self._vocabulary.active if p not in burdens]
+        if self._fitter.fit(left).cost < min(_FAR_LESS * fit.cost, fit.cost - _MANY):
+            self._retract(burdens)
+
+    def _find_burdens(self, fit: Fit, spared: Collection[Predicate] = ()) -> tuple[Predicate, ...]:
         return find_burdens(
             self._fitter,
             self._vocabulary,
-            spared | changes if fit.witnesses else spared,
+            spared,
             keeps_consistent=self._settings.spare_retraction and not fit.witnesses,
         )
 
