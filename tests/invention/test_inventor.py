@@ -255,7 +255,7 @@ def test_during_an_episode_only_new_causes_are_asked_for() -> None:
     study.inventor.keep_up()
     assert len(study.proposer.asked) == asked
     notebook.success("", "Wave(r)", "#1")
-    notebook.failure("#2", "Wave(r)")
+    notebook.failure("held(a) shiny(b) #2", "Wave(r)")
     study.inventor.keep_up()
     assert {q[0].skill for q in study.proposer.asked[asked:]} == {"Wave"}
 
@@ -629,3 +629,18 @@ def test_what_else_changed_is_rather_asked_where_other_things_hold() -> None:
     assert len(asked) == 2
     assert asked[0] in (0, 1)
     assert asked[1] == 2
+
+
+def test_what_told_nothing_new_is_read_together_when_twice_as_much_was_executed() -> None:
+    notebook = Notebook(KITCHEN)
+    notebook.success("empty(r) #0", "Wave(r)", "held(a) shiny(b) #1")
+    notebook.failure("held(a) shiny(b) #2", "Wave(r)")
+    study = Study(notebook, [HELD, SHINY], active=[EMPTY], unnoticed_everywhere=True)
+    study.inventor.invent()
+    assert study.active == ["empty"]  # no other picture looks like the first one
+    notebook.success("empty(r) held(a) #3", "Wave(r)", "#4")
+    notebook.success("empty(r) held(a) #5", "Wave(r)", "shiny(b) #6")
+    notebook.waves.clear()
+    study.inventor.invent()
+    assert notebook.waves[0] == "held shiny"
+    assert "held shiny" in notebook.waves[1:]

@@ -89,6 +89,7 @@ class Notebook:
     Attributes:
         asked: for every call of ``labels`` the names of the predicates and how many pictures.
         fetched: the same for what was announced to be needed.
+        waves: for every such announcement the names of all predicates in it.
     """
 
     def __init__(self, domain: Domain, *predicates: Predicate) -> None:
@@ -97,6 +98,7 @@ class Notebook:
         self.recorded = RecordedTransitions(domain)
         self.asked: list[tuple[str, int]] = []
         self.fetched: list[tuple[str, int]] = []
+        self.waves: list[str] = []
 
     def success(self, before: str, skill: str, after: str, *, changed: bool | None = None) -> None:
         self.episode((before, skill, True, after), changed=changed)
@@ -120,8 +122,11 @@ class Notebook:
         self.recorded.add(Episode(present if names else self.domain.scene(), 0, transitions))
 
     def prefetch(self, wanted: Iterable[tuple[AtomSpace, Sequence[Observation]]]) -> None:
+        first = len(self.fetched)
         for space, observations in wanted:
             self.fetched.append((" ".join(p.name for p in space.predicates), len(observations)))
+        names = " ".join(name for name, _ in self.fetched[first:]).split()
+        self.waves.append(" ".join(dict.fromkeys(names)))
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
         self.asked.append((" ".join(p.name for p in space.predicates), len(observations)))

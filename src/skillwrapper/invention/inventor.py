@@ -137,15 +137,26 @@ class Inventor:
         return fit
 
     def _look_through_shelf(self) -> None:
-        """Try candidates again that told nothing new when they were proposed (D26)."""
-        for predicate, asked in self._shelf.take(len(self._fitter.recorded)):
+        """Try candidates again that told nothing new when they were proposed (D26).
+
+        They are read together: a question about a picture costs as much for one as for many.
+        """
+        active = {p.name for p in self._vocabulary.active}
+        taken = self._shelf.take(len(self._fitter.recorded))
+        due = [(p, asked) for p, asked in taken if p.name not in active]
+        self._screen.look(due, self._vocabulary.active)
+        left = [(p, a) for p, a in due if self._promising(a, [p], dormant=False)]
+        self._fitter.labeller.announce([p for p, _ in left])
+        for predicate, asked in left:
             if predicate.name not in {p.name for p in self._vocabulary.active}:
                 fit = self._fitter.fit(self._vocabulary.active)
                 self._try(asked, fit, [predicate], dormant=False)
 
     def _take_up_changes(self) -> None:
         """Take dormant names of changes into use that tell apart what nothing else does (D26)."""
-        for predicate in self._vocabulary.dormant_changes:
+        dormant = self._vocabulary.dormant_changes
+        self._fitter.labeller.announce(dormant)
+        for predicate in dormant:
             self._fitter.labeller.label([predicate])
             if not follows(self._fitter, self._vocabulary.active, predicate):
                 self._vocabulary.accept(predicate, for_change=True)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from skillwrapper.grounding import AtomSpace
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.steadiness import Steadiness
-from skillwrapper.invention.unnoticed import tells_more
+from skillwrapper.invention.unnoticed import look_alikes, tells_more
 from skillwrapper.invention.witnesses import Witnesses
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
@@ -33,6 +34,25 @@ class Screen:
         self._labeller = labeller
         self._steadiness = steadiness
         self._settings = settings
+
+    def look(
+        self, due: Sequence[tuple[Predicate, Inconsistency]], vocabulary: Sequence[Predicate]
+    ) -> None:
+        """Have the pictures read together by which candidates for unnoticed changes are judged.
+
+        Args:
+            due: the candidates, with what each was proposed for.
+            vocabulary: what is known already.
+        """
+        steady = self._steadiness.pictures() if self._settings.steady else []
+        wanted = [
+            (p, scene, pictures)
+            for p, asked in due
+            for scene, pictures in (*steady, look_alikes(self._labeller, vocabulary, asked))
+        ]
+        self._labeller.truth.prefetch(
+            (AtomSpace((p,), scene.objects), pictures) for p, scene, pictures in wanted
+        )
 
     def flaws(
         self,

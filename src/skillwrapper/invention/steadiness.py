@@ -63,17 +63,25 @@ class Steadiness:
     def unsteady(self, predicates: Iterable[Predicate]) -> tuple[Predicate, ...]:
         """Those that say different things of the same state."""
         chosen = tuple(predicates)
-        starts = {s: tuple(o.values()) for s, o in self._starts.items() if len(o) > 1}
-        around = self._latest(success=False)
-        seen = [*starts.items(), *((r.scene, _pictures(r)) for r in around)]
         self._truth.prefetch(
-            (AtomSpace((p,), scene.objects), pictures) for scene, pictures in seen for p in chosen
+            (AtomSpace((p,), scene.objects), pictures)
+            for scene, pictures in self.pictures()
+            for p in chosen
         )
+        starts, around = self._compared_starts(), self._latest(success=False)
         return tuple(
             p
             for p in chosen
-            if any(self._varies(p, s, o) for s, o in starts.items()) or self._flickers(p, around)
+            if any(self._varies(p, s, o) for s, o in starts) or self._flickers(p, around)
         )
+
+    def pictures(self) -> list[tuple[Scene, tuple[Observation, ...]]]:
+        """What is looked at first, scene by scene."""
+        around = self._latest(success=False)
+        return [*self._compared_starts(), *((r.scene, _pictures(r)) for r in around)]
+
+    def _compared_starts(self) -> list[tuple[Scene, tuple[Observation, ...]]]:
+        return [(s, tuple(o.values())) for s, o in self._starts.items() if len(o) > 1]
 
     def _latest(self, *, success: bool) -> list[RecordedTransition]:
         """The latest executions around which another picture was taken."""

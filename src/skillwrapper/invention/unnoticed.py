@@ -21,6 +21,8 @@ from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.transitions.tables import Group
+from skillwrapper.world.observation import Observation
+from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 _GROWTH, _LATER, _AGAIN = 1.5, 2.0, 4.0
@@ -241,6 +243,14 @@ class Shelf:
         return due
 
 
+def look_alikes(
+    labeller: Labeller, vocabulary: Sequence[Predicate], asked: Inconsistency
+) -> tuple[Scene, tuple[Observation, ...]]:
+    """The pictures before and after a success, and those that are alike to the vocabulary."""
+    scene, groups = _groups(labeller, vocabulary, asked)
+    return scene, tuple(dict.fromkeys(o for group in groups for o in group))
+
+
 def tells_more(
     labeller: Labeller,
     vocabulary: Sequence[Predicate],
@@ -251,23 +261,30 @@ def tells_more(
 
     They are looked for among those that look like the ones before and after the success.
     """
-    record = labeller.recorded.records[asked.culprit]
-    scene = record.scene
-    observations = labeller.recorded.observations(scene)
-    states = labeller.values(scene, vocabulary)
-    alike = []
-    for place in dict.fromkeys((record.before, record.after)):
-        same = np.flatnonzero((states == states[place]).all(axis=1))
-        nearest = [n for n in same.tolist() if n != place][-_ALIKE:]
-        alike.append([observations[n] for n in (place, *nearest)])
-    seen = [o for group in alike for o in group]
+    scene, groups = _groups(labeller, vocabulary, asked)
+    seen = [o for group in groups for o in group]
     labeller.truth.prefetch((AtomSpace((p,), scene.objects), seen) for p in candidates)
     telling = set()
     for predicate in candidates:
         space = AtomSpace((predicate,), scene.objects)
-        for group in alike:
+        for group in groups:
             labels = labeller.truth.labels(space, group)
             known = (labels != UNKNOWN).all(axis=0)
             if (labels[:, known] != labels[0, known]).any():
                 telling.add(predicate)
     return telling
+
+
+def _groups(
+    labeller: Labeller, vocabulary: Sequence[Predicate], asked: Inconsistency
+) -> tuple[Scene, list[list[Observation]]]:
+    """The latest pictures that look like the one before the success, and like the one after it."""
+    record = labeller.recorded.records[asked.culprit]
+    observations = labeller.recorded.observations(record.scene)
+    states = labeller.values(record.scene, vocabulary)
+    groups = []
+    for place in dict.fromkeys((record.before, record.after)):
+        same = np.flatnonzero((states == states[place]).all(axis=1))
+        nearest = [n for n in same.tolist() if n != place][-_ALIKE:]
+        groups.append([observations[n] for n in (place, *nearest)])
+    return record.scene, groups

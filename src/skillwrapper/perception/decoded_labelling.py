@@ -92,7 +92,7 @@ class DecodedLabeller(Labeller):
 
     def _labels(self, scene: Scene, predicates: Sequence[Predicate]) -> tuple[PredicateLabels, ...]:
         self._keep_up()
-        self._announce(predicates)
+        self.announce(predicates)
         return tuple(self._labels_of(scene, predicate) for predicate in predicates)
 
     def _labels_of(self, scene: Scene, predicate: Predicate) -> PredicateLabels:

@@ -56,7 +56,7 @@ class Labeller:
             self._labelled.clear()
         chosen = tuple(predicates)
         if chosen not in self._labelled:
-            self._announce(chosen)
+            self.announce(chosen)
             scenes = tuple(
                 SceneTransitions(self.recorded.executions(s), self._labels(s, chosen))
                 for s in self.recorded.scenes
@@ -65,6 +65,16 @@ class Labeller:
                 self.recorded.domain, chosen, scenes, self._lifter
             )
         return self._labelled[chosen]
+
+    def announce(self, predicates: Sequence[Predicate]) -> None:
+        """Have all pictures read together of which labels of predicates will be needed."""
+        missing = [
+            (scene, p) for scene in self.recorded.scenes for p in self._missing(scene, predicates)
+        ]
+        self.truth.prefetch(
+            (AtomSpace((p,), scene.objects), self.recorded.observations(scene))
+            for scene, p in missing
+        )
 
     def values(self, scene: Scene, predicates: Sequence[Predicate]) -> Labels:
         """Labels (observations, atoms) of all observations of a scene."""
@@ -91,15 +101,6 @@ class Labeller:
     def _joined(self, scene: Scene, labels: Sequence[PredicateLabels]) -> Labels:
         shape = (len(self.recorded.observations(scene)), 0)
         return np.hstack([x.values for x in labels]) if labels else np.zeros(shape, dtype=np.int8)
-
-    def _announce(self, predicates: Sequence[Predicate]) -> None:
-        """Have the pictures of all scenes read together."""
-        missing = [(scene, self._missing(scene, predicates)) for scene in self.recorded.scenes]
-        self.truth.prefetch(
-            (AtomSpace(unread, scene.objects), self.recorded.observations(scene))
-            for scene, unread in missing
-            if unread
-        )
 
     def _labels(self, scene: Scene, predicates: Sequence[Predicate]) -> tuple[PredicateLabels, ...]:
         missing = self._missing(scene, predicates)
