@@ -40,9 +40,11 @@ def allowed_states() -> list[KukaState]:
 
 
 def test_exactly_the_states_that_are_not_refused_are_reachable() -> None:
+    """But for those in which forces made an open jar slip out of the hand."""
     reached = KukaEnvironment().reachable_states()
+    slipped = {state for state in allowed_states() if state.opened and not state.jar_held}
     assert len(reached) == 13
-    assert set(reached) == set(allowed_states())
+    assert set(reached) == set(allowed_states()) - slipped
 
 
 @pytest.mark.parametrize(

@@ -92,7 +92,8 @@ def add_jar(stage: Any, look: Look) -> None:
     body.add_geom(
         name="jar_foot", type=geom.mjGEOM_CYLINDER, size=[r, 0.006, 0], pos=[0, 0, 0.006], **SOLID
     )
-    add_ring(body, "jar_wall", r - 0.003, h, 0.0, thickness=0.003, condim=4, **SOLID)
+    wall = h - 0.016  # the lid rests on it
+    add_ring(body, "jar_wall", r - 0.003, wall, 0.0, thickness=0.003, condim=4, **SOLID)
 
 
 def add_lid(stage: Any, look: Look) -> None:
@@ -121,7 +122,8 @@ def add_knife(stage: Any, look: Look) -> None:
     geom = mujoco().mjtGeom
     handle = {"type": geom.mjGEOM_CAPSULE, "size": [HANDLE_RADIUS, 0.040, 0]}
     body.add_geom(name="knife_handle", rgba=look.handle, **handle, **VISIBLE)
-    body.add_geom(name="knife_solid", condim=4, **handle, **SOLID)
+    hard = {"solref": [0.006, 1.0]}  # or it dips deep into the table when it falls
+    body.add_geom(name="knife_solid", condim=4, **hard, **handle, **SOLID)
     add_mesh(stage, "knife_blade", _blade())
     steel = {"type": geom.mjGEOM_MESH, "meshname": "knife_blade", "rgba": look.blade}
     body.add_geom(name="knife_blade", **steel, **VISIBLE)
@@ -155,6 +157,14 @@ def add_holder(stage: Any, look: Look) -> None:
         **VISIBLE,
     )
     add_ring(body, "holder_solid", r - 0.003, h, 0.0, thickness=0.003, **SOLID)
+    floor = (KNIFE_IN_HOLDER - BLADE_TIP) / 2  # the blade stands on it
+    body.add_geom(
+        name="holder_solid_floor",
+        type=mujoco().mjtGeom.mjGEOM_CYLINDER,
+        size=[r - 0.006, floor, 0],
+        pos=[0, 0, floor],
+        **SOLID,
+    )
 
 
 def add_bread(stage: Any, look: Look) -> None:

@@ -9,8 +9,10 @@ import numpy as np
 
 from skillwrapper.domains.kuka.objects import (
     BLADE_TIP,
+    BLADE_WIDTH,
     BREAD_HEIGHT,
     JAR_HEIGHT,
+    JAR_RADIUS,
     LID,
     TOPPING_PLACES,
 )
@@ -44,8 +46,10 @@ _SPREADING: Final = grip_along((0.50, 0.08, -0.80), across=(0.0, 1.0, 0.0))
 """How the right hand holds the knife over the bread: its flat side leans on it."""
 _STROKES: Final = (-0.02, 0.0, 0.02)
 """Where strokes go, along the bread's x axis."""
-_REACH: Final = 0.045
-"""Spots of bread that are no farther from the blade's tip are covered."""
+_ON_BREAD: Final = 0.015
+"""A blade whose tip is no higher over the bread touches it, in metres."""
+_DEEP: Final = 0.03
+"""So far under the jar's rim the blade's tip is in peanut butter, in metres."""
 
 
 class KukaSkills:
@@ -86,6 +90,9 @@ class KukaSkills:
 
     def pick_knife(self) -> None:
         """Pull the knife out of its holder and bring it home."""
+        if RIGHT in self._table.world.held:
+            thing = self._table.world.held[RIGHT].thing
+            raise MotionFailed(f"the right hand is full: it holds the {thing}")
         grip = self._motion.seen(self._table.knife_grip(self._table.world.pose(KNIFE)))
         self._motion.move_to(RIGHT, grip.shifted(z=_ABOVE))
         self._motion.move_straight(RIGHT, grip, touching={KNIFE, "holder"})
@@ -97,7 +104,7 @@ class KukaSkills:
     def open_jar(self) -> None:
         """Hold the jar in front, take its lid off, and lay it down."""
         self._motion.move_to(LEFT, _IN_FRONT)
-        grip = self._table.lid_grip(self._table.world.pose(LID))
+        grip = self._table.lid_grip(self._motion.seen(self._table.world.pose(LID)))
         self._motion.move_to(RIGHT, grip.shifted(z=_ABOVE))
         self._motion.move_straight(RIGHT, grip, touching={LID, JAR, LEFT})
         self._motion.grasp(RIGHT, LID, LID_OPENING)
@@ -110,7 +117,7 @@ class KukaSkills:
     def scoop(self) -> None:
         """Hold the jar in front, dip the blade into it, and bring both hands home."""
         self._motion.move_to(LEFT, _IN_FRONT)
-        jar = self._table.world.pose(JAR)
+        jar = self._motion.seen(self._table.world.pose(JAR))
         deep = jar.position + np.array([0.0, 0.0, JAR_HEIGHT - _INTO_JAR + BLADE_TIP])
         grip = Pose(deep, np.eye(3)) @ self._table.world.held[RIGHT].pose.inverse()
         self._motion.move_to(RIGHT, grip.shifted(z=_INTO_JAR + _ABOVE / 2))
@@ -122,7 +129,7 @@ class KukaSkills:
 
     def spread(self) -> None:
         """Draw the blade over the bread."""
-        bread = self._table.world.pose(BREAD)
+        bread = self._motion.seen(self._table.world.pose(BREAD))
         for number, x in enumerate(_STROKES):
             over = self._tip_at(bread.position + bread.rotation @ np.array([x, 0.0, 0.0]))
             if number == 0:
@@ -131,7 +138,7 @@ class KukaSkills:
             self._cover()
         self._motion.move_straight(RIGHT, over.shifted(z=_OVER_BREAD), touching={BREAD})
         self._motion.go_home(RIGHT)
-        if len(self._table.topping) < len(TOPPING_PLACES) / 2:
+        if not self._table.is_spread():
             raise MotionFailed("the blade has missed most of the bread")
 
     def drop(self) -> None:
@@ -154,26 +161,26 @@ class KukaSkills:
 
     def _dip(self) -> None:
         """Peanut butter sticks to a blade whose tip is in the open jar."""
-        tip, jar = self._tip(), self._table.world.pose(JAR)
-        x, y, z = (jar.inverse() @ Pose(tip, np.eye(3))).position
-        if not (np.hypot(x, y) < 0.03 and 0 < z < JAR_HEIGHT):
+        jar, tip = self._table.world.pose(JAR), self._tip()
+        x, y, z = (jar.inverse() @ tip).position
+        if not (np.hypot(x, y) < JAR_RADIUS and 0 < z < JAR_HEIGHT - _DEEP):
             raise MotionFailed("the blade is not in the jar")
         self._table.blade = COATED
         self._table.show()
 
     def _cover(self) -> None:
-        """Spots of bread near the blade's tip are covered, and the blade is bare."""
-        bread, tip = self._table.world.pose(BREAD), self._tip()
-        for number, (x, y, _) in enumerate(TOPPING_PLACES):
-            spot = bread.position + bread.rotation @ np.array([x, y, BREAD_HEIGHT])
-            if np.linalg.norm(spot - tip) < _REACH:
-                self._table.topping.add(number)
-        self._table.blade = USED
+        """Spots of bread that the end of the blade lies on are covered; of most, it is used up."""
+        end = self._table.world.pose(BREAD).inverse() @ self._tip()
+        if end.position[2] < BREAD_HEIGHT + _ON_BREAD:
+            places = enumerate(TOPPING_PLACES)
+            self._table.topping.update(n for n, (x, y, r) in places if _from_end(end, x, y) < r)
+        if self._table.is_spread():
+            self._table.blade = USED
         self._table.show()
 
-    def _tip(self) -> Vector:
-        knife = self._table.world.pose(KNIFE)
-        return np.asarray(knife.position - BLADE_TIP * knife.rotation[:, 2])
+    def _tip(self) -> Pose:
+        """The middle of the blade's end, which is as wide as the blade along y."""
+        return self._table.world.pose(KNIFE) @ Pose.at(0.0, 0.0, -BLADE_TIP)
 
     def _tip_at(self, place: Vector) -> Pose:
         """The grip with the blade's tip on the bread at a place."""
@@ -181,3 +188,11 @@ class KukaSkills:
         tip = place + np.array([0.0, 0.0, BREAD_HEIGHT + 0.006])
         knife = Pose(tip + BLADE_TIP * rotation[:, 2], rotation)
         return knife @ self._table.world.held[RIGHT].pose.inverse()
+
+
+def _from_end(end: Pose, x: float, y: float) -> float:
+    """How far a place is from the end of the blade, both seen from above, in metres."""
+    across = BLADE_WIDTH * end.rotation[:2, 1]
+    offset = np.array([x, y]) - end.position[:2]
+    share = np.clip(offset @ across / (across @ across), -1.0, 1.0)
+    return float(np.linalg.norm(offset - share * across))

@@ -44,6 +44,7 @@ from skillwrapper.domains.tabletop.layout import Layout
 from skillwrapper.domains.tabletop.poses import Matrix, Pose, grip_along, grip_down, quaternion_of
 from skillwrapper.domains.tabletop.shapes import VISIBLE
 from skillwrapper.domains.tabletop.stage import DAYLIGHT, Lighting, new_stage
+from skillwrapper.domains.tabletop.welds import add_weld
 from skillwrapper.domains.tabletop.world import ArmSetup, TableWorld
 
 LEFT, RIGHT = "left", "right"
@@ -64,12 +65,16 @@ LID_PLACE: Final = Pose.at(0.58, -0.02, LID_HEIGHT / 2)
 """Where the lid lies once the jar was opened."""
 JAR_OPENING, LID_OPENING, KNIFE_OPENING = 0.28, 0.28, 0.57
 """Of the fingers when they touch a thing."""
-JAR_DEPTH, LID_DEPTH, KNIFE_DEPTH = 0.018, 0.018, 0.010
+JAR_DEPTH, LID_DEPTH, KNIFE_DEPTH = 0.018, -0.009, 0.010
 """How far the fingers' pads are then behind the grip, in metres."""
 _LEAST_SPREAD: Final = 0.5
 """Bread with a smaller share of its spots is bare."""
 _STANDS: Final = 0.06
-"""A thing that was pushed no farther than this may stay there, in metres."""
+"""A jar that was pushed no farther than this may stay there, in metres."""
+_UPRIGHT: Final = 0.9
+"""Of a jar that leans no more than this, cosine of how much."""
+_FLAT: Final = 0.03
+"""What lies on the table has its middle no higher, in metres."""
 
 
 @dataclass(frozen=True)
@@ -161,19 +166,32 @@ class KukaTable:
         held = {held.thing for held in self.world.held.values()}
         in_holder = KNIFE in self.world.attached
         knife: KnifePlace = IN_HAND if KNIFE in held else IN_HOLDER if in_holder else ON_TABLE
-        spread = len(self.topping) / len(TOPPING_PLACES) > _LEAST_SPREAD
         return KukaState(
             jar_held=JAR in held,
             opened=LID not in self.world.attached,
             knife=knife,
-            blade=USED if spread else self.blade,
+            blade=self.blade,
         )
 
+    def is_spread(self) -> bool:
+        """Whether most of the bread is covered."""
+        return len(self.topping) / len(TOPPING_PLACES) > _LEAST_SPREAD
+
     def displaced(self) -> str | None:
-        """A jar that is neither held nor where it started; None if it is."""
-        offset = self.world.pose(JAR).position - self.layout[JAR].pose(0.0).position
-        if self.world.holder(JAR) is None and np.linalg.norm(offset) > _STANDS:
+        """What lies where no skill leaves it, in words; None if nothing does."""
+        jar, start = self.world.pose(JAR), self.layout[JAR].pose(0.0)
+        if jar.rotation[2, 2] < _UPRIGHT:
+            return f"the {JAR} is not upright"
+        if (
+            self.world.holder(JAR) is None
+            and np.linalg.norm(jar.position - start.position) > _STANDS
+        ):
             return f"the {JAR} is not where it belongs"
+        loose = [LID] if self.world.holder(KNIFE) else [LID, KNIFE]
+        for thing in loose:
+            high = self.world.pose(thing).position[2] > _FLAT
+            if high and thing not in self.world.attached:
+                return f"the {thing} does not lie on the table"
         return None
 
 
@@ -198,4 +216,6 @@ def _model(setting: Setting) -> Any:
     weld(stage, LEFT, JAR)
     for thing in (KNIFE, LID):
         weld(stage, RIGHT, thing)
+    add_weld(stage, JAR, LID)
+    add_weld(stage, HOLDER, KNIFE, gives=True)
     return stage.compile()

@@ -1,11 +1,13 @@
-"""The two arms' table with other things, light and cameras: the drawings of the domain."""
+"""The two arms' table with other things, light, cameras and forces: the domain's drawings."""
 
 from __future__ import annotations
 
 from skillwrapper.domains.kuka.cameras import HIGH, OPPOSITE
 from skillwrapper.domains.kuka.environment import KukaEnvironment
 from skillwrapper.domains.kuka.objects import OTHERS
+from skillwrapper.domains.kuka.physical import PhysicalKukaEnvironment
 from skillwrapper.domains.kuka.table import Setting
+from skillwrapper.domains.tabletop.physics import CLUMSINESS
 from skillwrapper.domains.tabletop.stage import Lighting
 from skillwrapper.world.domain import Domain
 
@@ -43,6 +45,16 @@ def in_warm_light(domain: Domain) -> KukaEnvironment:
 def with_shadows(domain: Domain) -> KukaEnvironment:
     """With a lamp that casts shadows."""
     return _lit(Lighting(shadows=True), domain)
+
+
+def by_forces(domain: Domain) -> PhysicalKukaEnvironment:
+    """Moved by servos that do what they should."""
+    return PhysicalKukaEnvironment(domain=domain)
+
+
+def clumsy(domain: Domain) -> PhysicalKukaEnvironment:
+    """Moved by servos, with poses seen wrongly and things that slip."""
+    return PhysicalKukaEnvironment(CLUMSINESS, domain=domain)
 
 
 def _lit(lighting: Lighting, domain: Domain) -> KukaEnvironment:

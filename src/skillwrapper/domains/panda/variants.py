@@ -7,12 +7,9 @@ from skillwrapper.domains.panda.environment import PandaEnvironment
 from skillwrapper.domains.panda.objects import OTHERS
 from skillwrapper.domains.panda.physical import PhysicalPandaEnvironment
 from skillwrapper.domains.panda.table import Setting
-from skillwrapper.domains.tabletop.physics import Troubles
+from skillwrapper.domains.tabletop.physics import CLUMSINESS
 from skillwrapper.domains.tabletop.stage import Lighting
 from skillwrapper.world.domain import Domain
-
-CLUMSINESS = Troubles(pose_noise=0.010, turn_noise=0.10, slips=0.01)
-"""Of a robot whose camera and gripper are not what they should be."""
 
 
 def other_things(domain: Domain) -> PandaEnvironment:

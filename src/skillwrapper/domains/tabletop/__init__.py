@@ -9,6 +9,7 @@ The table's top is the plane z = 0, x points away from the robot, lengths are me
     shapes      meshes of our own: ``lathe``, ``sweep``, ``add_mesh``, ``add_ring``
     stage       ``new_stage``: an MjSpec with floor, table, light; ``add_camera``, ``add_object``
     arms        ``ArmKind`` (``PANDA``, ``IIWA``), ``add_arm``, ``weld`` (grasps in physics)
+    welds       what a hand holds and what sticks to something, for forces
     kinematics  ``Arm``: the joints of one arm in a compiled model, inverse kinematics
     world       ``TableWorld``: model and data, where things are, who holds what, what is shown
     collisions  ``Clearance``: whether arms and what they hold touch anything else

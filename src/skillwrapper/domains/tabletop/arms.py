@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,9 +11,12 @@ from typing import Any, Final
 
 from skillwrapper.domains.tabletop.extra import mujoco
 from skillwrapper.domains.tabletop.robot_models import load_model
+from skillwrapper.domains.tabletop.welds import add_weld
 
 GRIP: Final = "grip"
 """What the names of everything of a gripper begin with, after the arm's."""
+_DRIVE: Final = "drive"
+"""The servo of a linkage."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +27,8 @@ class ArmKind:
         arm: name of its model.
         gripper: name of the gripper's model.
         finger_joints: of the gripper, each with how it moves when the gripper's value grows by one.
-        finger_servos: likewise its servos.
+        finger_servos: likewise its servos; none for a linkage that one servo of ours drives by its
+            first joint.
         opened: value of the fingers when the gripper is open.
         closed: value of the fingers when it is closed.
         stiffness: of each joint of the arm, in newton metres per radian, for physics.
@@ -50,6 +55,11 @@ class ArmKind:
         """Number of the arm's own joints."""
         return len(self.stiffness)
 
+    @property
+    def servos(self) -> Mapping[str, float]:
+        """Of the fingers on the stage, each with how it moves with the gripper's value."""
+        return self.finger_servos or {_DRIVE: 1.0}
+
 
 PANDA: Final = ArmKind(
     arm="panda",
@@ -74,7 +84,7 @@ IIWA: Final = ArmKind(
             "right_inner_knuckle_joint": -1.0,
         }
     ),
-    finger_servos=MappingProxyType({"finger_1": 1.0, "finger_2": -1.0}),
+    finger_servos=MappingProxyType({}),
     opened=0.0,
     closed=0.7,
     stiffness=(4500, 4500, 3500, 3500, 2000, 2000, 2000),
@@ -107,6 +117,8 @@ def add_arm(
     arm, gripper = load_model(kind.arm), load_model(kind.gripper)
     for part in (arm, gripper):
         _strip(part)
+    if not kind.finger_servos:
+        _couple(gripper, kind)
     for motor in list(arm.actuators):
         arm.delete(motor)
     own_joints = [joint for joint in arm.joints if joint.name.startswith("joint")]
@@ -121,16 +133,12 @@ def add_arm(
 
 def weld(stage: Any, arm: str, thing: str) -> None:
     """Prepare a grasp for physics: inactive until the arm takes the thing."""
-    m = mujoco()
-    added = stage.add_equality(
-        name=weld_name(arm, thing), type=m.mjtEq.mjEQ_WELD, objtype=m.mjtObj.mjOBJ_BODY
-    )
-    added.name1, added.name2, added.active = f"{arm}_{GRIP}_right_gripper", thing, False
+    add_weld(stage, hand_of(arm), thing)
 
 
-def weld_name(arm: str, thing: str) -> str:
-    """The name of the grasp that ``weld`` prepares."""
-    return f"{arm} holds {thing}"
+def hand_of(arm: str) -> str:
+    """The body that an arm's fingers are mounted on."""
+    return f"{arm}_{GRIP}_right_gripper"
 
 
 def _strip(part: Any) -> None:
@@ -139,6 +147,30 @@ def _strip(part: Any) -> None:
         part.delete(extra)
     for site in part.sites:
         site.rgba = [0, 0, 0, 0]
+
+
+def _couple(gripper: Any, kind: ArmKind) -> None:
+    """Let all fingers follow the first one, which a servo drives.
+
+    The tendons of the model do the same at twice the cost, its limits (0.7 degrees for 0.7 radians)
+    keep the fingers open, and the parts of a linkage that really overlap must not push each other.
+    """
+    m = mujoco()
+    for part in [*gripper.equalities, *gripper.tendons, *gripper.actuators]:
+        gripper.delete(part)
+    leader, *followers = kind.finger_joints
+    for name, sign in kind.finger_joints.items():
+        joint = gripper.joint(name)
+        joint.limited, joint.armature, joint.damping = 0, 0.005, [0.3, 0, 0]
+        if name in followers:
+            added = gripper.add_equality(name=f"{name}_follows", type=m.mjtEq.mjEQ_JOINT)
+            added.name1, added.name2 = name, leader
+            added.data[:5] = [0, sign, 0, 0, 0]
+    servo = gripper.add_actuator(name=_DRIVE, target=leader, trntype=m.mjtTrn.mjTRN_JOINT)
+    servo.set_to_position(kp=30, kv=3)
+    servo.forcelimited, servo.forcerange = True, [-6, 6]
+    for first, second in itertools.combinations([body.name for body in gripper.bodies[1:]], 2):
+        gripper.add_exclude(bodyname1=first, bodyname2=second)
 
 
 def _add_servo(arm: Any, joint: Any, stiffness: float, strength: float) -> None:

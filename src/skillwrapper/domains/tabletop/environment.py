@@ -183,8 +183,7 @@ class PhysicalArms(ArmEnvironment[State, AnyTable]):
             self.skills.run(instance)
         except MotionFailed as failed:
             reason = str(failed)
-            for arm in self.table.world.arms:
-                self.motion.retreat(arm)
+            self.motion.retreat()
         after = self._state = self.table.state()
         reason = reason or self._mishap(before, after, instance)
         return Outcome(reason is None, self.observe(), reason or "", changed=before != after)

@@ -8,11 +8,12 @@ from typing import Final
 
 import numpy as np
 
-from skillwrapper.domains.tabletop.arms import GRIP, weld_name
+from skillwrapper.domains.tabletop.arms import GRIP, hand_of
 from skillwrapper.domains.tabletop.extra import mujoco
 from skillwrapper.domains.tabletop.kinematics import Joints
 from skillwrapper.domains.tabletop.motion import FrameTaker, Motion, MotionFailed
 from skillwrapper.domains.tabletop.poses import Pose, turn_z
+from skillwrapper.domains.tabletop.welds import fasten, loosen
 from skillwrapper.domains.tabletop.world import Held, TableWorld
 
 _SPEED: Final = 1.4
@@ -28,6 +29,8 @@ _PRESSING_STEPS: Final = 30
 _OPENING_STEPS: Final = 100
 _SETTLING_STEPS: Final = 200
 _STEPS_PER_FRAME: Final = 40
+_BACK_OFF: Final = 0.10
+"""How far up an arm goes before it goes home from where something went wrong, in metres."""
 _LOOSE: Final = 0.15
 """Share of the way to open fingers by which they begin beside what they hold."""
 _LOST: Final = 0.05
@@ -51,6 +54,8 @@ class Troubles:
 
 
 NO_TROUBLES: Final = Troubles()
+CLUMSINESS: Final = Troubles(pose_noise=0.010, turn_noise=0.10, slips=0.01)
+"""Of a robot whose camera and gripper are not what they should be."""
 
 
 class PhysicsMotion(Motion):
@@ -73,11 +78,13 @@ class PhysicsMotion(Motion):
         super().__init__(world, on_frame)
         self.troubles, self._chance = troubles, np.random.default_rng(seed)
         self._steps = 0
+        self._moved: list[str] = []
         self._sides = {arm: self._sides_of(arm) for arm in world.arms}
 
     def restart(self, seed: int) -> None:
         """Begin with the world as it was just arranged: nothing moves, what is held is held."""
         self._chance = np.random.default_rng(seed)
+        self._moved.clear()
         for arm, held in self.world.held.items():
             self._fasten(arm, held.thing)
         for name, arm_ in self.world.arms.items():
@@ -106,6 +113,8 @@ class PhysicsMotion(Motion):
         for number, joints in enumerate(path):
             if slip and number == len(path) // 2:
                 self._unfasten(arm)
+                # Strong fingers hold by friction what no weld holds.
+                self._set_fingers(arm, self.world.arms[arm].kind.opened)
             self._aim(arm, joints, pace)
         self._arrive(arm)
         self._check_held(arm)
@@ -138,10 +147,16 @@ class PhysicsMotion(Motion):
         """Wait for it to come to rest."""
         self._advance(_SETTLING_STEPS)
 
-    def retreat(self, arm: str) -> None:
-        """Bring an arm home after something went wrong, whatever is in the way."""
+    def retreat(self) -> None:
+        """Bring all arms home after something went wrong, the one that moved last first."""
+        others = [arm for arm in self.world.arms if arm not in self._moved]
+        for arm in [*reversed(self._moved), *others]:
+            self._retreat(arm)
+
+    def _retreat(self, arm: str) -> None:
+        """Bring an arm home, whatever is in the way."""
         x, y, z = self.world.grip(arm).position
-        up = Pose(np.array([x, y, max(z, 0.30)]), self.world.grip(arm).rotation)
+        up = Pose(np.array([x, y, max(z + _BACK_OFF, 0.30)]), self.world.grip(arm).rotation)
         raised = self.world.arms[arm].solve(up, self.start(arm))
         path = [self.world.home[arm]] if raised is None else [raised, self.world.home[arm]]
         for joints in path:
@@ -150,6 +165,7 @@ class PhysicsMotion(Motion):
         self._drop_if_lost(arm)
 
     def _aim(self, arm: str, joints: Joints, pace: float) -> None:
+        self._moved = [*(other for other in self._moved if other != arm), arm]
         servos, start = self.world.arms[arm].servos, self.start(arm)
         seconds = max(_SHORTEST, float(np.abs(joints - start).max()) / (_SPEED * pace))
         count = int(np.ceil(seconds / self.world.model.opt.timestep))
@@ -195,26 +211,14 @@ class PhysicsMotion(Motion):
         """Weld a thing to the gripper as it is between the fingers."""
         model, data = self.world.model, self.world.data
         mujoco().mj_kinematics(model, data)
-        hand = Pose.of(
-            data.body(f"{arm}_{GRIP}_right_gripper").xpos,
-            data.body(f"{arm}_{GRIP}_right_gripper").xmat,
-        )
-        relative = hand.inverse() @ self.world.pose(thing)
-        number = model.equality(weld_name(arm, thing)).id
-        # The layout of ``eq_data`` for welds: anchor, position, quaternion, torque scale.
-        model.eq_data[number, :] = 0
-        model.eq_data[number, 3:6] = relative.position
-        model.eq_data[number, 6:10] = relative.quaternion
-        model.eq_data[number, 10] = 1
-        data.eq_active[number] = 1
+        fasten(model, data, hand_of(arm), thing)
         grip = self.world.grip(arm)
         self.world.held[arm] = Held(thing, grip.inverse() @ self.world.pose(thing))
 
     def _unfasten(self, arm: str) -> None:
         held = self.world.held.get(arm)
         if held is not None:
-            number = self.world.model.equality(weld_name(arm, held.thing)).id
-            self.world.data.eq_active[number] = 0
+            loosen(self.world.model, self.world.data, hand_of(arm), held.thing)
 
     def _opening(self, arm: str) -> float:
         """How far the fingers are open, by the first of them."""
@@ -223,7 +227,7 @@ class PhysicsMotion(Motion):
         return float(self.world.data.qpos[mine.fingers[0]] / first)
 
     def _set_fingers(self, arm: str, opening: float) -> None:
-        for servo, sign in self.world.arms[arm].kind.finger_servos.items():
+        for servo, sign in self.world.arms[arm].kind.servos.items():
             number = self.world.model.actuator(f"{arm}_{GRIP}_{servo}").id
             self.world.data.ctrl[number] = sign * opening
 
@@ -238,15 +242,16 @@ class PhysicsMotion(Motion):
                     sides.add(self._sides[arm][int(bodies[mine])])
         return len(sides)
 
-    def _sides_of(self, arm: str) -> dict[int, int]:
-        """For every body of a gripper's fingers, the one nearest to the hand on its side."""
-        model = self.world.model
-        hand = model.body(f"{arm}_{GRIP}_right_gripper").id
-        found = {}
+    def _sides_of(self, arm: str) -> dict[int, bool]:
+        """For every body of a gripper's fingers, whether it is on the side of the first finger."""
+        model, grip = self.world.model, self.world.grip(arm).inverse()
+        hand = model.body(hand_of(arm)).id
+        places = {}
         for body in range(model.nbody):
-            side, above = body, int(model.body_parentid[body])
+            above = body
             while above not in (0, hand):
-                side, above = above, int(model.body_parentid[above])
-            if above == hand:
-                found[body] = side
-        return found
+                above = int(model.body_parentid[above])
+            if above == hand and model.body_weldid[body] != model.body_weldid[hand]:
+                places[body] = (grip @ self.world.pose(model.body(body).name)).position[:2]
+        first = next(iter(places.values()))
+        return {body: bool(place @ first > 0) for body, place in places.items()}

@@ -14,6 +14,7 @@ from skillwrapper.domains.tabletop.extra import mujoco
 from skillwrapper.domains.tabletop.kinematics import Arm, Joints
 from skillwrapper.domains.tabletop.poses import Pose
 from skillwrapper.domains.tabletop.stage import PARKING_HEIGHT
+from skillwrapper.domains.tabletop.welds import fasten, loosen
 
 
 @dataclass(frozen=True)
@@ -131,13 +132,22 @@ class TableWorld:
         self.carry(arm, self.data)
 
     def attach(self, thing: str, to: str, pose: Pose) -> None:
-        """Let a thing stick to another one, in a pose as the other sees it."""
+        """Let a thing stick to another one, in a pose as the other sees it.
+
+        Args:
+            thing: its name.
+            to: what it sticks to; the stage has a weld for the two.
+            pose: of the thing.
+        """
         self.attached[thing] = Held(to, pose)
         self._carry_attached(to, self.data)
+        fasten(self.model, self.data, to, thing)
 
     def detach(self, thing: str) -> None:
         """Let a thing stick to nothing."""
-        self.attached.pop(thing, None)
+        at = self.attached.pop(thing, None)
+        if at is not None:
+            loosen(self.model, self.data, at.thing, thing)
 
     def home_grip(self, arm: str) -> Pose:
         """Where the grip is when an arm waits."""
