@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-_PLAIN_TEXT = re.compile(r"[\t\n -~]*+\Z")
+_PLAIN = b"\t\n" + bytes(range(32, 127))
 _LINE_BREAKS = re.compile(r"\r\n?|[\v\f\x85\u2028\u2029]")
 _UNSEEN = r"\x00-\x08\x0e-\x1f\x7f-\x84\x86-\x9f\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufeff"
 _HAS_UNSEEN = re.compile(f"[{_UNSEEN}]")
@@ -53,7 +53,7 @@ _TEMPLATE = re.compile(
     r"(?:<\|end_header_id\|>)?|<start_of_turn>(?:model\b)?"
     r"|<\|(?:begin|end)_of_box\|>"
 )
-_TEMPLATE_SIGNS = ("<|", "_of_turn>", "<s>", "</s>", "<\uff5c")
+_TEMPLATE_SIGN = re.compile(r"<(?:[|\uff5c]|/?s>|unused9[45]>|channel\||(?:start|end)_of_turn>)")
 _FENCE = re.compile(rf"```[ \t]{{0,4}}(?:{_THINKING})[ \t]{{0,20}}$", re.IGNORECASE | re.MULTILINE)
 _ANSWER_BELOW = re.compile(
     r"^[^\w\n]{0,20}(?:begin final response|done thinking"
@@ -75,7 +75,7 @@ def clean_text(text: str) -> str:
     Lone surrogates become U+FFFD, all line breaks ``\\n``; escape sequences of terminals, control
     characters, and marks that cannot be seen or turn the direction of writing go.
     """
-    if _PLAIN_TEXT.match(text):
+    if text.isascii() and not text.encode().translate(None, delete=_PLAIN):
         return text
     text = _SURROGATE.sub("\ufffd", _LINE_BREAKS.sub("\n", text))
     return _CONTROL.sub("", text) if _HAS_UNSEEN.search(text) else text
@@ -95,10 +95,10 @@ def answer_of(reply: str) -> str:
 def _of_first_turn(text: str) -> str:
     """Without signs of chat templates, and without turns that a model invents after its own."""
     text = text.replace("[/INST]", "")
+    if not _TEMPLATE_SIGN.search(text):
+        return text
     for written, meant in _ALIASES.items():
         text = text.replace(written, meant)
-    if not any(sign in text for sign in _TEMPLATE_SIGNS):
-        return text
     turns = (_TEMPLATE.sub("", turn) for turn in _END_OF_TURN.split(text))
     first = next((turn for turn in turns if turn.strip()), "").strip()
     return first.removeprefix("<s>").removesuffix("</s>")

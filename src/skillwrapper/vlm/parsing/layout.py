@@ -7,14 +7,13 @@ the two is told by the reply as a whole; where it is not, nobody gets the verdic
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from skillwrapper.vlm.parsing.statements import LineReading
-from skillwrapper.vlm.parsing.verdicts import Said, Verdict
+from skillwrapper.vlm.parsing.verdicts import Verdict
 
 
-@dataclass(frozen=True)
-class _Part:
+class _Part(NamedTuple):
     """A line that matters for the layout.
 
     Attributes:
@@ -62,9 +61,9 @@ def _second_verdicts(parts: Sequence[_Part]) -> dict[int, Verdict]:
         if part.is_statement:
             above = part
         elif above and part.verdict and not part.reading.is_heading:
-            said = [s.said for s in above.reading.statements if isinstance(s.said, Verdict)]
-            if any(verdict.value is not part.verdict.value for verdict in said):
-                found[above.number] = part.verdict
+            for given in above.reading.given:
+                if given.value is not part.verdict.value:
+                    found[above.number] = part.verdict
     return found
 
 
@@ -74,10 +73,8 @@ def _parts(readings: Sequence[LineReading]) -> Iterator[_Part]:
         if not reading.text:
             touches, paragraph_begins = False, True
             continue
-        is_prose = not reading.statements and reading.verdict is None
-        mentions = bool(reading.statements) and not reading.leads
-        decided = mentions and all(s.said is not Said.NOTHING for s in reading.statements)
-        if not (is_prose or decided) or reading.ends_group or (is_prose and paragraph_begins):
+        aside = reading.mentions or (reading.is_prose and not paragraph_begins)
+        if not aside or reading.ends_group:
             yield _Part(number, reading, touches)
             touches = True
         paragraph_begins = False

@@ -19,9 +19,10 @@ _DELETED = re.compile(
 )
 _ESCAPED = re.compile(r"\\([_*()\[\]<>#|-])")
 _FENCE = re.compile(r"(?:> ?)?(?:```|~~~)[\w+-]{0,20}")
-_LEAD = re.compile(
+_LEADS = re.compile(
     r"(?:[#>| ]++|[-+\u2022\u2023\u25aa\u25cf\u25e6](?![>(\w]) ?|[-+](?=\w)|\([a-zA-Z]\) "
-    r"|[(\[]\d{1,3}[)\]] ?|\(?\d{1,3}[.):]{1,2}(?!\d) ?|[a-zA-Z]\) |step ?\d{1,3} ?[.:)-]{0,3} ?)",
+    r"|[(\[]\d{1,3}[)\]] ?|\(?\d{1,3}[.):]{1,2}(?!\d) ?|[a-zA-Z]\) "
+    r"|step ?\d{1,3} ?[.:)-]{0,3} ?){1,5}+",
     re.IGNORECASE,
 )
 _NUMBER = re.compile(r"[ #-]{0,9}\(?(\d{1,3})[.):]")
@@ -43,7 +44,6 @@ _SIGNS = {
 _PLAIN_SIGNS = str.maketrans(_SIGNS)
 _CIRCLED = str.maketrans({chr(0x2460 + n): f"{n + 1}. " for n in range(20)})
 _KEY = re.compile(r"([A-Za-z][A-Za-z _-]{1,30}?) ?#?\d{0,3} ?[:=] ?(?=(.*+))")
-_DEEPEST_LEAD = 5
 
 
 class Line(NamedTuple):
@@ -92,16 +92,19 @@ def _plain_line(written: str) -> Line:
     bold = ("**" in text or "__" in text) and _BOLD.match(text) is not None
     if "\\" in text:
         text = _ESCAPED.sub(r"\1", text)
-    whole = " ".join(text.replace("*", "").replace("`", "").split())
+    if "*" in text or "`" in text:
+        text = text.replace("*", "").replace("`", "")
+    whole = _with_single_blanks(text)
     text = _without_lead(whole)
-    listed = len(text) < len(whole)
-    number = _NUMBER.match(whole) if listed else None
-    field = _KEY.match(text) if ":" in text or "=" in text else None
+    if text == whole and not bold and ":" not in text and "=" not in text:
+        return Line(text, whole)
+    number = _NUMBER.match(whole) if len(text) < len(whole) else None
+    field = _KEY.match(text)
     return Line(
         text,
         whole,
         int(number.group(1)) if number else None,
-        listed,
+        len(text) < len(whole),
         whole.startswith("#"),
         bold,
         field.group(1) if field else "",
@@ -117,11 +120,13 @@ def without_lead(line: Line) -> Line:
     return Line(line.text, line.text, titled=line.titled, bold=line.bold)
 
 
+def _with_single_blanks(text: str) -> str:
+    if text.isascii() and "  " not in text and "\t" not in text:
+        return text.strip()
+    return " ".join(text.split())
+
+
 def _without_lead(line: str) -> str:
     """A line without its list marker, number, heading sign or table bar."""
-    for _ in range(_DEEPEST_LEAD):
-        lead = _LEAD.match(line)
-        if lead is None or not lead.end():
-            break
-        line = line[lead.end() :]
-    return line.strip()
+    leads = _LEADS.match(line)
+    return line[leads.end() :].strip() if leads else line

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from skillwrapper.symbols.predicates import Predicate
 from skillwrapper.vlm.parsing.calls import argument_readings, find_calls
@@ -69,7 +70,7 @@ class _Proposal:
 
 def parse_predicates(reply: str, names: ParameterNames) -> ParsedPredicates:
     """Read lines like ``name(?type, ?type): meaning``. Never raises."""
-    resolver = _TypeResolver(names)
+    resolver = _resolver(tuple(names.times.items()), tuple(names.aliases.items()))
     found: dict[tuple[str, tuple[str, ...]], Predicate] = {}
     unusable = []
     for proposal in _proposals([line.text for line in reply_lines(reply)]):
@@ -132,7 +133,7 @@ def _read_signature(text: str) -> tuple[str, tuple[str, ...], str] | None:
         calls = find_calls(f"p{text[bracket:]}")
         if calls and calls[0].start == 0:
             return named.group(1), calls[0].arguments, text[bracket + calls[0].end - 1 :]
-    elif bracket == 0 or named:  # in the manner of Lisp, or in square brackets
+    elif bracket == 0 or (named and named.end() == bracket):  # Lisp, or square brackets
         calls = find_calls(text)
         if calls and calls[0].start == 0:
             return calls[0].name, calls[0].arguments, text[calls[0].end :]
@@ -187,8 +188,15 @@ def _check(proposal: _Proposal, resolver: _TypeResolver) -> Predicate | str:
     return Predicate(name, tuple(types), proposal.semantics)
 
 
+@lru_cache(maxsize=64)
+def _resolver(
+    times: tuple[tuple[str, int], ...], aliases: tuple[tuple[str, str], ...]
+) -> _TypeResolver:
+    return _TypeResolver(ParameterNames(dict(times), dict(aliases)))
+
+
 class _TypeResolver:
-    """Finds the allowed type that a written parameter stands for."""
+    """Finds the allowed type that a written parameter stands for; remembers what it found."""
 
     def __init__(self, names: ParameterNames) -> None:
         self._names = names

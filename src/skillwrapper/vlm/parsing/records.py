@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from skillwrapper.vlm.parsing.markup import Line, plain_line
+from skillwrapper.vlm.parsing.memory import remembering
 from skillwrapper.vlm.parsing.names import fold, words_of
 
 NAMES = words_of(
@@ -52,9 +53,12 @@ _CHECKED = frozenset(["✓", "✔", "✅", "☑", "yes", "true", "1", "•", "�
 _RULE = re.compile(r"[|: +-]{3,}+")
 
 
-def fold_key(key: str) -> str:
+def _fold_key(key: str) -> str:
     """A key as it is known here: no case, no signs, no number at its end."""
     return fold(key).rstrip("0123456789")
+
+
+fold_key = remembering(_fold_key, len)
 
 
 def is_reason(key: str) -> bool:
@@ -84,20 +88,24 @@ def entry(record: Mapping[str, str]) -> str | None:
 
 def join_records(lines: Sequence[Line]) -> list[Line]:
     """The lines, with every row of a table and every block of fields as one of them."""
-    if not any(line.key or "|" in line.whole for line in lines):
-        return list(lines)
     joined: list[Line] = []
-    number = 0
-    while number < len(lines):
-        line = lines[number]
-        if "|" in line.whole and _is_rule(lines, number + 1):
-            taken, number = _table(lines, number)
-        elif line.key and fold(line.key) in NAMES:
-            taken, number = _block(lines, number)
-        else:
-            taken, number = [line], number + 1
-        joined += taken
-    return joined
+    end = 0
+    for start in [n for n, line in enumerate(lines) if line.key or "|" in line.whole]:
+        if start >= end:
+            joined += lines[end:start]
+            record, end = _record(lines, start)
+            joined += record
+    return [*joined, *lines[end:]]
+
+
+def _record(lines: Sequence[Line], start: int) -> tuple[list[Line], int]:
+    """The lines for what begins at a line, and where it ends."""
+    line = lines[start]
+    if "|" in line.whole and _is_rule(lines, start + 1):
+        return _table(lines, start)
+    if fold(line.key) in NAMES:
+        return _block(lines, start)
+    return [line], start + 1
 
 
 def _first(record: Mapping[str, str], keys: Sequence[str]) -> str | None:
@@ -124,24 +132,33 @@ def _is_rule(lines: Sequence[Line], number: int) -> bool:
 
 def _table(lines: Sequence[Line], start: int) -> tuple[list[Line], int]:
     """The rows of a table, and where it ends; rows that are no records stay as they are."""
-    keys = [fold_key(cell) for cell in _cells(lines[start])]
+    keys = tuple(fold_key(cell) for cell in _cells(lines[start].whole))
     rows = [lines[start]] if "(" in lines[start].whole else []
     group = ""
     number = start + 2
     while number < len(lines) and "|" in lines[number].whole:
-        record = dict(zip(keys, _cells(lines[number]), strict=False))
-        said = entry(record)
-        named = next((f"{key} {record[key]}:" for key in record if key in GROUPS), "")
-        if said and named != group:
-            group = named
-            rows.append(plain_line(named))
+        said, heading = _row((*keys, lines[number].whole))
+        if said and heading != group:
+            group = heading
+            rows.append(plain_line(heading))
         rows.append(plain_line(said) if said else lines[number])
         number += 1
     return rows, number
 
 
-def _cells(line: Line) -> list[str]:
-    return [cell.strip() for cell in line.whole.removeprefix("|").removesuffix("|").split("|")]
+def _read_row(keys_and_row: tuple[str, ...]) -> tuple[str | None, str]:
+    """The line for a row of a table, and the heading of the group it says it belongs to."""
+    *keys, row = keys_and_row
+    record = dict(zip(keys, _cells(row), strict=False))
+    heading = next((f"{key} {record[key]}:" for key in record if key in GROUPS), "")
+    return entry(record), heading
+
+
+_row = remembering(_read_row, lambda keys_and_row: sum(map(len, keys_and_row)))
+
+
+def _cells(row: str) -> list[str]:
+    return [cell.strip() for cell in row.removeprefix("|").removesuffix("|").split("|")]
 
 
 def _block(lines: Sequence[Line], start: int) -> tuple[list[Line], int]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
-from skillwrapper.vlm.parsing.instances import InstanceReader, Step, instance_reader
+from skillwrapper.vlm.parsing.instances import InstanceReader, instance_reader
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.vlm.parsing.markup import Line
 from skillwrapper.vlm.parsing.memory import remembering
@@ -37,9 +38,17 @@ class ParsedSequences:
 
 
 class _Listed(NamedTuple):
+    """A line with the skills in it: those that are meant, and why the others cannot be told."""
+
     line: Line
     is_heading: bool
-    steps: tuple[Step, ...]
+    meant: tuple[SkillInstance, ...]
+    unusable: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        """How many skills are written there."""
+        return len(self.meant) + len(self.unusable)
 
 
 def parse_sequences(
@@ -48,16 +57,12 @@ def parse_sequences(
     """Read sequences: under headings, one a line, or one a paragraph. Never raises."""
     read = _line_reader(tuple(skills), tuple(objects))
     lines = list(map(read, reply_lines(reply)))
-    sequences, unusable = [], []
+    sequences: list[tuple[SkillInstance, ...]] = []
+    unusable: list[str] = []
     for group in _group(lines):
-        steps = []
-        for step in group:
-            if isinstance(step.meant, str):
-                unusable.append(excerpt(step.meant, 160))
-            else:
-                steps.append(step.meant)
-        if steps:
-            sequences.append(tuple(steps))
+        unusable += [why for line in group for why in line.unusable]
+        meant = [instance for line in group for instance in line.meant]
+        sequences += [tuple(meant)] if meant else []
     if not sequences and not unusable:
         unusable.append(f"no skills in the reply: '{excerpt(reply)}'")
     return ParsedSequences(tuple(sequences), tuple(unusable))
@@ -75,28 +80,30 @@ def _listed(line: Line, reader: InstanceReader) -> _Listed:
     heading = _HEADING.match(line.text)
     text = line.text[heading.end() :].lstrip(" :.)=[-") if heading else line.text
     is_title = line.titled and "(" not in text and heading is None
-    return _Listed(line, heading is not None, () if is_title else reader.steps(text))
+    read = [step.meant for step in (() if is_title else reader.steps(text))]
+    meant = tuple(instance for instance in read if not isinstance(instance, str))
+    unusable = tuple(excerpt(why, 160) for why in read if isinstance(why, str))
+    return _Listed(line, heading is not None, meant, unusable)
 
 
-def _group(lines: list[_Listed]) -> list[list[Step]]:
-    """Skills that belong together."""
-    if any(line.is_heading for line in lines):
-        return _split(lines, [line.is_heading for line in lines])
-    if any(len(line.steps) > 1 for line in lines):
-        return _split(lines, [bool(line.steps) for line in lines])
+def _group(lines: list[_Listed]) -> list[list[_Listed]]:
+    """Lines with skills that belong together."""
+    starts = [line.is_heading for line in lines]
+    if any(starts):
+        return _split(lines, starts)
+    sizes = [line.size for line in lines]
+    if max(sizes, default=0) > 1:
+        return _split(lines, sizes)
     groups = _split(lines, _starts_by_paragraph(lines))
-    if all(len(group) <= 1 for group in groups):  # one list with empty lines in between
-        return [[step for group in groups for step in group]]
+    if all(sum(line.size for line in group) <= 1 for group in groups):
+        return [lines]  # one list with empty lines in between
     return groups
 
 
-def _split(lines: list[_Listed], starts: list[bool]) -> list[list[Step]]:
-    groups: list[list[Step]] = [[]]
-    for line, starts_here in zip(lines, starts, strict=True):
-        if starts_here:
-            groups.append([])
-        groups[-1].extend(line.steps)
-    return [group for group in groups if group]
+def _split(lines: list[_Listed], starts: Sequence[int]) -> list[list[_Listed]]:
+    """The lines from each start to the next, and those before the first."""
+    places = [0, *(number for number, starts_here in enumerate(starts) if starts_here), None]
+    return [lines[start:end] for start, end in itertools.pairwise(places)]
 
 
 def _starts_by_paragraph(lines: list[_Listed]) -> list[bool]:

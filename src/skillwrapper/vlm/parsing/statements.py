@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from skillwrapper.symbols.predicates import Atom
 from skillwrapper.vlm.parsing.calls import Call, find_calls
@@ -70,10 +71,26 @@ class LineReading:
     is_bold: bool = False
     ends_group: bool = False
 
-    @property
+    @cached_property
     def is_open(self) -> bool:
         """Whether it begins with a statement of which it says nothing."""
         return self.leads and any(s.said is Said.NOTHING for s in self.statements)
+
+    @cached_property
+    def given(self) -> tuple[Verdict, ...]:
+        """The verdicts that it gives on its statements."""
+        return tuple(s.said for s in self.statements if isinstance(s.said, Verdict))
+
+    @cached_property
+    def is_prose(self) -> bool:
+        """Whether it holds neither a statement nor a verdict."""
+        return not self.statements and self.verdict is None
+
+    @cached_property
+    def mentions(self) -> bool:
+        """Whether it speaks of statements further on, and says something of each."""
+        said = [statement.said for statement in self.statements]
+        return bool(said) and not self.leads and Said.NOTHING not in said
 
 
 class StatementReader:

@@ -7,6 +7,7 @@ nothing: ``Said.AMBIGUOUS``.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from enum import Enum, StrEnum
 from typing import NamedTuple
@@ -176,8 +177,9 @@ def borne_out(said: Sequence[Reading]) -> frozenset[Family]:
     Letters and digits count where no word is used: letters if there are several, digits if there
     are no numbers but 0 and 1. Crosses count beside ticks, and empty boxes beside ticked ones.
     """
-    verdicts = [reading for reading in said if isinstance(reading, Verdict)]
-    letters = sum(v.family is Family.LETTER for v in verdicts)
+    times = Counter(said)
+    verdicts = [reading for reading in times if isinstance(reading, Verdict)]
+    letters = sum(times[v] for v in verdicts if v.family is Family.LETTER)
     worded = any(v.family is Family.WORD and v.value is not None for v in verdicts)
     ticked = any(v.family in {Family.MARK, Family.BOX} and v.value is True for v in verdicts)
     boxed = Verdict(True, Family.BOX) in verdicts
@@ -185,7 +187,7 @@ def borne_out(said: Sequence[Reading]) -> frozenset[Family]:
         Family.WORD: True,
         Family.MARK: True,
         Family.LETTER: not worded and letters > 1,
-        Family.DIGIT: not worded and Said.NUMBER not in said,
+        Family.DIGIT: not worded and Said.NUMBER not in times,
         Family.CROSS: ticked,
         Family.BOX: boxed,
     }
