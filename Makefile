@@ -62,8 +62,9 @@ lint: setup
 types: setup
 	$(BIN)/mypy
 
+# Tests start many processes: what one of them has compiled, the others load, whatever the environment.
 tests: setup
-	$(BIN)/pytest -n 2 --dist loadfile
+	PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/build/bytecode $(BIN)/pytest -n 2 --dist loadfile
 
 benchmark: setup
 	$(BIN)/python -m benchmarks

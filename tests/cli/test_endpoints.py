@@ -23,6 +23,7 @@ from skillwrapper.vlm.settings import AskingSettings
 from skillwrapper.vlm.store import CallStore
 from skillwrapper.vlm.stored_call import CallStatus
 
+CUPS = str(Path(__file__).parents[1] / "support" / "cup_world")
 KEY = "sk-planted-0815-secret"
 FAST = {"first_wait": 0.002, "longest_wait": 0.01}
 
@@ -300,7 +301,8 @@ def test_a_dry_run_asks_and_writes_nothing(
 
 
 def test_a_run_stops_when_it_learns_nothing_new(tmp_path: Path) -> None:
-    patient = config(ModelSettings()).model_copy(update={"iterations": 16, "until_converged": True})
+    cups = config(ModelSettings()).model_copy(update={"domain": CUPS})
+    patient = cups.model_copy(update={"iterations": 16, "until_converged": True})
     result = learn(patient, tmp_path / "run")
     assert result.converged
     assert 1 < result.iterations < 16

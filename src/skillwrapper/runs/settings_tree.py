@@ -10,6 +10,7 @@ import types
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -60,6 +61,7 @@ class Setting:
         return {name: getattr(self, name) for name in names}
 
 
+@cache
 def list_settings(model: type[BaseModel], prefix: str = "") -> tuple[Setting, ...]:
     """All settings of a tree, in its order."""
     return tuple(_settings(model, prefix))
