@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from skillwrapper.domains.discovery import find_domain
 from skillwrapper.domains.starting import start_project
@@ -172,6 +173,8 @@ def test_a_recording_gives_the_same_model(
         ({"after": "missing.png"}, "missing.png: no such picture"),
         ({"after": "log.jsonl"}, "expected a picture"),
         ({"after": ""}, "expected a picture"),
+        ({"after": "large.png"}, "as before, got 33 x 7; scale them alike"),
+        ({"before": "large.png"}, "as before, got 33 x 7; scale them alike"),
         ({"before": "top=log.png front=log.png"}, "no such picture"),
         ({"scene": "nowhere"}, "nowhere"),
         ({"episode": ""}, "episode"),
@@ -182,6 +185,7 @@ def test_a_wrong_recording_is_refused_as_a_whole(
     changed: dict[str, str], said: str, live: Path, settings: RunSettings, tmp_path: Path
 ) -> None:
     rows = list(log_of(live, tmp_path))[:3]
+    Image.new("RGB", (33, 7)).save(tmp_path / "large.png")
     pick = next(row for row in log_of(live, tmp_path) if row["skill"] == "Pick")
     log = tmp_path / "log.jsonl"
     wrong = [*rows, {**pick, **changed}, rows[0]]

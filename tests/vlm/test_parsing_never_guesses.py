@@ -8,8 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from skillwrapper.errors import SymbolError
 from skillwrapper.symbols import Atom
-from skillwrapper.vlm.parsing import parse_labels
+from skillwrapper.symbols.predicates import WORDS_OF_LOGIC, parse_predicate
+from skillwrapper.vlm.parsing import ParameterNames, parse_labels, parse_predicates
 
 ATOMS = (
     Atom("holding", ("robot", "patty")),
@@ -166,3 +168,14 @@ def test_the_other_way_round_is_another_statement() -> None:
     asked = Atom("on_top_of", ("lettuce", "patty"))
     parsed = parse_labels("on_top_of(patty, lettuce): false", [asked])
     assert parsed.missing == (asked,)
+
+
+@pytest.mark.parametrize("name", [*sorted(WORDS_OF_LOGIC), "Not", "AND"])
+def test_no_predicate_is_called_like_a_word_of_logic(name: str) -> None:
+    """A goal or a label could not name it: ``not(patty)`` says something else."""
+    reply = f"{name}(?item): the item is raw.\nis_{name}(?item): the item is raw."
+    parsed = parse_predicates(reply, ParameterNames({"item": 1}))
+    assert [predicate.name for predicate in parsed.predicates] == [f"is_{name}"]
+    assert parsed.unusable == (f"{name}(?item): expected a name of its own, got a word of logic",)
+    with pytest.raises(SymbolError, match="word of logic"):
+        parse_predicate(f"{name}(?item): the item is raw")

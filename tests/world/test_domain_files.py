@@ -113,6 +113,32 @@ def test_mistake_is_named_with_its_line(
     assert message in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "both"),
+    [
+        ("  arm:\n", "  Apple:\n", "objects 'Apple' and 'apple'"),
+        ("  arm:\n", "  APPLE:\n", "objects 'APPLE' and 'apple'"),
+        ("  fruit:\n", "  Food:\n", "types 'food' and 'Food'"),
+        ("  robot: {}\n", "  robot: {}\n  ROBOT: {}\n", "types 'robot' and 'ROBOT'"),
+        ("skills:\n", "skills:\n  take: {parameters: []}\n", "skills 'take' and 'Take'"),
+    ],
+)
+def test_names_that_differ_in_case_only_are_refused(
+    tmp_path: Path, old: str, new: str, both: str
+) -> None:
+    """Planners read all names in lower case: one plan would mean two things."""
+    text = GOOD.replace("[fruit]", "[food]") if "Food" in new else GOOD
+    path = written(tmp_path, text.replace(old, new, 1))
+    with pytest.raises(ConfigurationError, match=r"domain\.yaml:\d+: .*rename one$") as caught:
+        load_domain(path)
+    assert both in str(caught.value)
+
+
+def test_an_object_may_be_called_like_its_type_or_a_skill(tmp_path: Path) -> None:
+    domain = load_domain(written(tmp_path, GOOD.replace("  apple:", "  TAKE:")))
+    assert "TAKE" in domain.object_by_name
+
+
 @pytest.mark.parametrize("name", ["", "a b", "a,b", "a\\nb", "a(b)", "a)", "?a", "1a", "a.b", "ä"])
 @pytest.mark.parametrize("old", ["  robot:", "  arm:", "  Take:", "name: food,", "  full:"])
 def test_names_that_no_reply_can_carry_are_refused(tmp_path: Path, old: str, name: str) -> None:

@@ -69,8 +69,11 @@ def _read(
 ) -> tuple[EpisodeSoFar, ...]:
     """The episodes of rows, each with where it stands."""
     episodes: dict[str, EpisodeSoFar] = {}
+    sizes: dict[str, tuple[int, int]] = {}
     for where, row in rows:
-        _checked(where, partial(_take, row, episodes, domain, pictures))
+        transition = _checked(where, partial(_take, row, episodes, domain, pictures))
+        for seen in (transition.before, transition.after):
+            _checked(where, partial(_expect_sizes, seen, sizes))
     if not episodes:
         raise FileError(f"{path}: expected at least one execution, got none")
     return tuple(episodes.values())
@@ -130,8 +133,8 @@ class _Pictures:
 
 def _take(
     row: RecordedRow, episodes: dict[str, EpisodeSoFar], domain: Domain, pictures: PictureSource
-) -> None:
-    """Add a row to the episode that it is of."""
+) -> Transition:
+    """Add a row to the episode that it is of; what was added."""
     scene = domain.scene(row.scene)
     instance = SkillInstance(row.skill, row.arguments)
     domain.check_instance(instance, scene)
@@ -147,6 +150,24 @@ def _take(
             expected, got = ", ".join(_cameras(episode.start)), ", ".join(_cameras(seen))
             raise FileError(f"expected pictures of {expected} as before, got {got}")
     episode.transitions.append(Transition(before, instance, row.success, after))
+    return episode.transitions[-1]
+
+
+def _expect_sizes(seen: Observation, sizes: dict[str, tuple[int, int]]) -> None:
+    """Raise ``FileError`` unless each camera goes on giving pictures of one size.
+
+    Args:
+        seen: what cameras show.
+        sizes: width and height so far, by camera; those of cameras not seen before are added.
+    """
+    for picture in seen.pictures:
+        expected = sizes.setdefault(picture.camera, picture.size)
+        if picture.size != expected:
+            raise FileError(
+                f"expected pictures of the camera '{picture.camera}' of {expected[0]} x "
+                f"{expected[1]} pixels as before, got {picture.size[0]} x {picture.size[1]}; "
+                "scale them alike, or give pictures of another view another camera"
+            )
 
 
 def _rows(path: Path) -> Iterator[tuple[str, RecordedRow]]:

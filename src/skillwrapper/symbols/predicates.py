@@ -11,6 +11,10 @@ from skillwrapper.errors import SymbolError
 from skillwrapper.world.types import Object
 
 _NAME = re.compile(r"^[A-Za-z][A-Za-z0-9_-]*$")
+WORDS_OF_LOGIC = frozenset(
+    ("and", "or", "not", "imply", "implies", "if", "iff", "when", "forall", "exists", "either")
+)
+"""Names that no new predicate may have: formulas and replies mean something else by them."""
 _ATOM = re.compile(r"\s*([^\s(),]+)\s*(?:\(([^()]*)\)\s*)?")
 
 
@@ -117,10 +121,14 @@ def parse_predicate(text: str) -> Predicate:
     """The predicate of a text such as ``on(?cup, ?shelf): the cup stands on the shelf``.
 
     Raises:
-        SymbolError: if the text is none.
+        SymbolError: if the text is none, or its name is a word of logic.
     """
     signature, _, meaning = text.partition(":")
     atom = parse_atom(signature)
+    if atom.predicate.lower() in WORDS_OF_LOGIC:
+        raise SymbolError(
+            f"expected a predicate with a name of its own, got the word of logic '{atom.predicate}'"
+        )
     types = tuple(term.removeprefix("?") for term in atom.terms)
     return Predicate(atom.predicate, types, meaning.strip())
 

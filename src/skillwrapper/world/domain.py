@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -116,6 +116,12 @@ def build_domain(document: YamlDocument) -> Domain:
         ConfigurationError: with file, line and what was expected.
     """
     entries = document.validate(DomainFile)
+    for kind, names in (
+        ("type", entries.types),
+        ("object", entries.objects),
+        ("skill", entries.skills),
+    ):
+        _expect_more_than_case(document, kind, names)
     hierarchy = _build_types(document, entries)
     objects = _build_objects(document, entries, hierarchy)
     return Domain(
@@ -213,6 +219,19 @@ def _build_scenes(
                 where = document.place(("scenes", scene, number))
                 raise UnknownNameError(f"object in scene '{scene}'", name, entries.objects, where)
     return tuple(Scene.of(scene, names, objects) for scene, names in entries.scenes.items())
+
+
+def _expect_more_than_case(document: YamlDocument, kind: str, names: Iterable[str]) -> None:
+    """PDDL and the readers of replies do not tell ``Cup`` from ``cup``."""
+    first: dict[str, str] = {}
+    for name in names:
+        other = first.setdefault(name.lower(), name)
+        if other != name:
+            raise ConfigurationError(
+                f"{document.place((f'{kind}s', name))}: expected names that differ in more than "
+                f"upper and lower case, which planners do not tell apart, got the {kind}s "
+                f"'{other}' and '{name}'; rename one"
+            )
 
 
 def _check_type(

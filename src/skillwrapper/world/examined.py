@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import struct
 import time
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -90,7 +89,7 @@ class Examined:
         """What is seen, if each camera goes on giving pictures of one size."""
         observation = _checked_observation(seen, check, what)
         for picture in observation.pictures:
-            size = _png_size(picture.png)
+            size = picture.size
             expected = self.picture_sizes.setdefault(picture.camera, size)
             expect(
                 size == expected,
@@ -149,8 +148,3 @@ def _picture_format(png: bytes) -> str:
             return image.format or "an unknown format"
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError):
         return "no picture"
-
-
-def _png_size(png: bytes) -> tuple[int, int]:
-    width, height = struct.unpack(">II", png[16:24])
-    return width, height

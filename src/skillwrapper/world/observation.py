@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import struct
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -25,6 +26,12 @@ class Picture:
     def sha256(self) -> str:
         """Hexadecimal SHA-256 of the PNG bytes; the identity of the picture on disk."""
         return hashlib.sha256(self.png).hexdigest()
+
+    @cached_property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        width, height = struct.unpack(">II", self.png[16:24])
+        return width, height
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
-from skillwrapper.symbols.predicates import Predicate
+from skillwrapper.symbols.predicates import WORDS_OF_LOGIC, Predicate
 from skillwrapper.vlm.parsing.calls import argument_readings, find_calls
 from skillwrapper.vlm.parsing.lines import excerpt, reply_lines
 from skillwrapper.vlm.parsing.names import NameIndex, fold
@@ -170,8 +170,8 @@ def _tidy(text: str) -> str:
 def _check(proposal: _Proposal, resolver: _TypeResolver) -> Predicate | str:
     name = "_".join(_WORD.findall(proposal.name)).strip("_")
     written = f"{name}({', '.join(proposal.parameters)})"
-    if not name[:1].isalpha() or len(name) > _LONGEST_NAME:
-        return f"{written}: expected a short name that starts with a letter"
+    if wanted := _wanted_of_name(name):
+        return f"{written}: expected {wanted}"
     if not proposal.semantics:
         return f"{written}: expected a meaning after a colon, got none"
     if len(proposal.parameters) > 2:
@@ -193,6 +193,14 @@ def _resolver(
     times: tuple[tuple[str, int], ...], aliases: tuple[tuple[str, str], ...]
 ) -> _TypeResolver:
     return _TypeResolver(ParameterNames(dict(times), dict(aliases)))
+
+
+def _wanted_of_name(name: str) -> str:
+    """What a name ought to be; nothing if it is so."""
+    if name.lower() in WORDS_OF_LOGIC:
+        return "a name of its own, got a word of logic"
+    is_short = name[:1].isalpha() and len(name) <= _LONGEST_NAME
+    return "" if is_short else "a short name that starts with a letter"
 
 
 class _TypeResolver:
