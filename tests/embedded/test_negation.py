@@ -109,6 +109,87 @@ off_table | item | The item is not on a table. | !on some table
 off_table | item | The item has left its table. |
 only_held | item | The item is anywhere but in the hand. |
 without_board | item | The item lies anywhere except on the board. | !on board
+p | item | The item is a long way off the board. | !on board
+p | item | Nobody put the item on the stove. | !on stove
+p | item | The item is seldom on the board. |
+p | item | The item has yet to reach the board. | !on board
+p | item | The stove lacks the item. | !on stove
+p | item | The item is excluded from the board. | !on board
+p | item | The item is separated from the board. | !on board
+p | item | The item is apart from the stove. | !on stove
+p | item | The item is detached from the stove. | !on stove
+p | item | The item is cooked only on one side. |
+p | item | The item is less than cooked. |
+p | item | The item is still raw, though called cooked. |
+p | item | The item is due to be cut. |
+p | item | The item is for cutting. |
+p | item | The item is a candidate for the stove. |
+p | item | The item is above the stove, hanging in the air. |
+p | item | The item is under the board. |
+p | item | The item is behind the stove. |
+p | item | The item is on the other side of the board. |
+p | item | The item is incompletely cut. |
+p | item | The item is not yet on the stove. | !on stove
+p | robot item | The robot lost its hold on the item. |
+p | robot item | The robot gave up holding the item. |
+p | robot item | The robot put down the item. |
+p | robot item | The robot quit holding the item. |
+p | robot item | The robot has finished holding the item. |
+p | item | The item is on the way to the stove. |
+p | item | The item is the opposite of cooked. |
+p | item | The item is unlikely to be on the board. |
+p | item | There is doubt that the item is on the board. |
+p | item | It is untrue that the item is cut. | !cut
+p | item | It is wrong to say the item is cut. | !cut
+p | item | The item is hypothetically on the stove. |
+p | item | The item used to be cooked on the stove. |
+p | item | The item is anywhere but on the board. | !on board
+p | item | The board is where the item is not. | !on board
+p | item | The item lies on the board no more. | !on board
+p | item | Of all items, this one alone isn't on the stove. | !on stove
+p | item | It is false that the item is on the stove. | !on stove
+p | item | It is not the case that the item is on the board. | !on board
+p | item | The item is missing from the board. | !on board
+p | item | The item has left the board. | !on board
+p | item | The item is clear of the stove. | !on stove
+p | item | The item is beyond the stove. |
+p | item | The item is uncooked. | !cooked
+p | item | The item is yet to be cooked. | !cooked
+p | item | The item still needs cutting. | !cut
+p | item | The item is anything but cooked. | !cooked
+p | item | The item is cooked insufficiently. |
+p | item | The item remains whole; no cut can be seen. | !cut
+p | item | The item is cut-free. | !cut
+p | robot item | The robot has dropped the item. |
+p | robot item | The robot let go of the item. |
+p | robot item | The robot released the item from its grip. |
+p | robot item | The robot stopped holding the item. |
+p | robot item | The robot holds everything other than the item. |
+p | robot item | The robot's hand is void of the item. |
+p | robot item | The robot is too far to hold the item. |
+p | robot item | The robot ceases to hold the item. |
+p | item | Contrary to appearances the item is on no stove. | !on stove
+p | item | The item is at best next to the board, certainly not on it. | !on board
+p | item | The item is on the board only in imagination. |
+p | item | zero contact between item and board. | !on board
+p | item | The item is on the stove in the first picture but gone from it now. | !on stove
+p | item | The item is exempt from being on the board. |
+p | item | The item sits on something that is not the board. | !on board
+p | item | The item is on the floor instead of the board. | !on board
+p | item | The item is no stranger to the board. |
+p | item | If cooked, the item would be brown; it is pale. | !cooked
+p | item | The item is expected on the stove. |
+p | item | The item is forbidden on the stove. |
+p | item | The item ought to lie on the board. |
+p | item | The item belongs on the board. |
+p | item | Someone took the item from the board. | !on board
+p | item | The item is devoid of cuts. | !cut
+p | item | The item awaits cooking. | !cooked
+p | item | The item is undercooked. |
+p | item | The item is insufficiently cooked. |
+p | item | The item is on neither station. |
+p | robot | The robot's hand is never empty. |
+p | item | The item is pre-cut stage. |
 """
 ROWS = [tuple(part.strip() for part in row.split("|")) for row in CORPUS.strip().splitlines()]
 

@@ -22,6 +22,11 @@ _OTHERWISE = (
     r"never|cannot|nothing|none|nobody|no ?one|nowhere|neither|nor|except|but|unless|lacks?|lacking"
     r"|absent|absence|fail(?:s|ed)? to|off|away|left (?:its|the|his)|removed|taken out|out of"
     r"|far from|hardly|barely|scarcely|rarely|seldom|refus(?:es?|ed|ing)|avoid(?:s|ed|ing)?"
+    r"|no more|zero|false that|missing|gone|other than|clear of|free(?= of\b|\W*$)"
+    r"|insufficient(?:ly)?|too \w+ to|exempt|stranger|contrary|forbidden|prohibited|banned"
+    r"|dropp(?:ed|ing)|let go|releas(?:es?|ed|ing)|stop(?:s|ped|ping)?|ceas(?:es?|ed|ing)"
+    r"|(?:lift|took|take|pull|push|slid|fell|fallen|mov|remov|clear)(?:es|s|n|ed|ing)?"
+    r" (?:\w+ ){0,3}?from"
     r"|prevent(?:s|ed|ing)?|reject(?:s|ed)?|den(?:y|ies|ied)|declin(?:es?|ed)|impossible|unable"
     r"|(?<=free of )(?:the )?(?:robot|hand|gripper|arm)|(?<=free from )(?:the )?(?:robot|hand)"
 )
@@ -29,10 +34,23 @@ _NOT_SO_NOW = (
     r"can(?! (?:clearly )?(?:be )?seen)|could|may|might|must|should|shall|will|would|about to"
     r"|ready (?:to|for)|able to|going to|needs? to|supposed to|meant to|to be|used to|formerly"
     r"|previously|almost|nearly|half|halfway|partly|partially|sometimes|tr(?:ies|ying) to"
-    r"|attempt(?:s|ing)? to|wants? to|(?:was|were|had been) (?=on|in|at|under|near|held|placed)"
+    r"|attempt(?:s|ing)? to|wants? to|expected|ought|belongs?|only in|imagin\w+|await\w*|pre(?=-)"
+    r"|pretend\w*|seems? to have been|soon|later|before long|planned|intended|due"
+    r"|(?:was|were|had been) (?=on|in|at|under|near|held|placed)"
+)
+_ELSEWHERE = (
+    r"under(?:neath)?|below|beneath|behind|beyond|apart|excluded|separated?|detached|other side"
+    r"|way to|reach(?:es|ed|ing)?|candidate|for (?:the|a)|hanging|hovering"
+)
+_IN_DOUBT = (
+    r"un(?:true|likely|certain|clear)|wrong|doubt\w*|hypothetical\w*|opposite|less than"
+    r"|incomplete\w*|only on|lost|los(?:es|ing)|g[ia]ve(?:s|n)? up|giving up"
+    r"|quit(?:s|ting)?|finish(?:es|ed|ing)?"
 )
 _NOT_PATTERN = re.compile(rf"\b(?:{_NOT})\b", re.IGNORECASE)
-_DENIAL = re.compile(rf"\b(?:{_NOT}|{_OTHERWISE}|{_NOT_SO_NOW})\b", re.IGNORECASE)
+_DENIAL = re.compile(
+    rf"\b(?:{_NOT}|{_OTHERWISE}|{_NOT_SO_NOW}|{_ELSEWHERE}|{_IN_DOUBT})\b", re.IGNORECASE
+)
 _BESIDE_THE_POINT = re.compile(
     r"\b(?:with|and|without) (?:nothing|anything|no(?: other)? \w+|any(?:thing)? other \w+)"
     r"(?: else)?(?: \w+)? (?:in )?between(?: \w+)?|\bnot only\b|\bwhether or not\b",
