@@ -47,6 +47,13 @@ def test_every_skill_works(careful: Unseen) -> None:
     assert (again.success, again.changed) == (False, False)
 
 
+def test_a_pressed_sponge_does_not_spring_away(careful: Unseen) -> None:
+    """A weld that is too firm keeps the fingers deep inside it, and it is flung when let go."""
+    careful.reset(seed=7050)
+    careful.set_state(PandaState(held="sponge", dirty=True), seed=7050)
+    assert run(careful, "Place(robot, sponge)") == [True]
+
+
 def test_what_slips_out_falls_and_the_skill_fails() -> None:
     table = Unseen(Troubles(slips=1.0))
     table.reset(seed=3)

@@ -44,7 +44,7 @@ from skillwrapper.domains.tabletop.layout import Layout
 from skillwrapper.domains.tabletop.poses import Matrix, Pose, grip_along, grip_down, quaternion_of
 from skillwrapper.domains.tabletop.shapes import VISIBLE
 from skillwrapper.domains.tabletop.stage import DAYLIGHT, Lighting, new_stage
-from skillwrapper.domains.tabletop.welds import add_weld
+from skillwrapper.domains.tabletop.welds import FIRM, LOOSE, add_weld
 from skillwrapper.domains.tabletop.world import ArmSetup, TableWorld
 
 LEFT, RIGHT = "left", "right"
@@ -213,9 +213,9 @@ def _model(setting: Setting) -> Any:
     stage.worldbody.add_geom(name="torso", rgba=[0.25, 0.26, 0.28, 1], **torso, **VISIBLE)
     for add in ADD:
         add(stage, setting.look)
-    weld(stage, LEFT, JAR)
+    weld(stage, LEFT, JAR, FIRM)
     for thing in (KNIFE, LID):
-        weld(stage, RIGHT, thing)
-    add_weld(stage, JAR, LID)
-    add_weld(stage, HOLDER, KNIFE, gives=True)
+        weld(stage, RIGHT, thing, FIRM)
+    add_weld(stage, JAR, LID, FIRM)
+    add_weld(stage, HOLDER, KNIFE, LOOSE)
     return stage.compile()

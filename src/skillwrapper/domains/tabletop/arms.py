@@ -11,7 +11,7 @@ from typing import Any, Final
 
 from skillwrapper.domains.tabletop.extra import mujoco
 from skillwrapper.domains.tabletop.robot_models import load_model
-from skillwrapper.domains.tabletop.welds import add_weld
+from skillwrapper.domains.tabletop.welds import USUAL, Firmness, add_weld
 
 GRIP: Final = "grip"
 """What the names of everything of a gripper begin with, after the arm's."""
@@ -131,9 +131,9 @@ def add_arm(
     stage.attach(arm, prefix=f"{name}_", frame=frame)
 
 
-def weld(stage: Any, arm: str, thing: str) -> None:
+def weld(stage: Any, arm: str, thing: str, firmness: Firmness = USUAL) -> None:
     """Prepare a grasp for physics: inactive until the arm takes the thing."""
-    add_weld(stage, hand_of(arm), thing)
+    add_weld(stage, hand_of(arm), thing, firmness)
 
 
 def hand_of(arm: str) -> str:

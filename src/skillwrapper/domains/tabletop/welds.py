@@ -5,30 +5,42 @@ They are prepared on the stage and do nothing until they are fastened; only forc
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Final
 
 from skillwrapper.domains.tabletop.extra import mujoco
 from skillwrapper.domains.tabletop.poses import Pose
 
 
-def add_weld(stage: Any, base: str, thing: str, *, gives: bool = False) -> None:
-    """Prepare a weld between two bodies of a stage.
+@dataclass(frozen=True)
+class Firmness:
+    """How much a weld yields, as MuJoCo has it.
 
-    Args:
-        stage: where.
-        base: what is held to.
-        thing: what is held.
-        gives: whether it yields some millimetres when pushed, as what only stands in something.
+    Attributes:
+        solref: in how many seconds it pulls back, and how damped.
+        solimp: how much of what pulls at it is withstood.
     """
+
+    solref: tuple[float, float]
+    solimp: tuple[float, float, float, float, float]
+
+
+USUAL: Final = Firmness((0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0))
+"""For what strong fingers press a part of themselves into; held firmly, it would spring away."""
+FIRM: Final = Firmness((0.004, 1.0), (0.99, 0.999, 0.001, 0.5, 2.0))
+"""For what is long: held as usual, a knife dips into what it shall stroke."""
+LOOSE: Final = Firmness((0.2, 1.0), (0.3, 0.9, 0.02, 0.5, 2.0))
+"""For what only stands in something: it yields some millimetres when it is pushed."""
+
+
+def add_weld(stage: Any, base: str, thing: str, firmness: Firmness = USUAL) -> None:
+    """Prepare a weld between two bodies of a stage."""
     m = mujoco()
     added = stage.add_equality(
         name=_name(base, thing), type=m.mjtEq.mjEQ_WELD, objtype=m.mjtObj.mjOBJ_BODY
     )
     added.name1, added.name2, added.active = base, thing, False
-    if gives:
-        added.solref, added.solimp = [0.2, 1.0], [0.3, 0.9, 0.02, 0.5, 2.0]
-    else:  # the usual softness lets a knife sink onto what it shall stroke
-        added.solref, added.solimp = [0.004, 1.0], [0.99, 0.999, 0.001, 0.5, 2.0]
+    added.solref, added.solimp = list(firmness.solref), list(firmness.solimp)
 
 
 def fasten(model: Any, data: Any, base: str, thing: str) -> None:
