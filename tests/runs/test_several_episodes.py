@@ -38,12 +38,14 @@ class Impatient:
         """Nothing is remembered."""
 
 
-def run(path: Path, environment: LampEnvironment | None = None) -> LearningResult:
+def run(
+    path: Path, environment: LampEnvironment | None = None, config: RunSettings = CONFIG
+) -> LearningResult:
     path.mkdir(exist_ok=True)
     domain = lamp_domain(path)
-    archive = make_archive(path / "run", CONFIG, domain)
+    archive = make_archive(path / "run", config, domain)
     return LearningAlgorithm(
-        CONFIG,
+        config,
         environment or LampEnvironment(domain),
         LampAssistant(),
         [ArchiveWriter(archive)],
@@ -71,6 +73,19 @@ def test_what_is_left_is_used_in_further_episodes(tmp_path: Path) -> None:
     archive = RunArchive.open(tmp_path / "run")
     assert archive.episodes() == result.episodes
     assert [i.executions for i in RunHistory.read(archive).iterations] == [BUDGET, BUDGET]
+
+
+@pytest.mark.usefixtures("stuck")
+@pytest.mark.parametrize(
+    ("price", "lengths"),
+    [(1, [3, 3, 3, 3]), (2, [3, 3, 3, 3]), (4, [3, 1, 3, 1]), (BUDGET, [3, 3])],
+)
+def test_a_reset_costs_as_much_of_the_budget_as_is_set(
+    tmp_path: Path, price: int, lengths: list[int]
+) -> None:
+    dear = CONFIG.exploration.model_copy(update={"reset_price": price})
+    result = run(tmp_path, config=CONFIG.model_copy(update={"exploration": dear}))
+    assert [len(e.transitions) for e in result.episodes] == lengths
 
 
 def test_only_an_explorer_that_wants_it_goes_on(

@@ -36,6 +36,13 @@ class ExplorationSettings(BaseModel):
         description="skills executed in one iteration",
         json_schema_extra={"unit": "skills"},
     )
+    reset_price: int = Field(
+        default=0,
+        ge=0,
+        description="so many skills of the budget a further start within an iteration counts as, "
+        "where nothing leads away any more; at the budget or above there is none",
+        json_schema_extra={"unit": "skills"},
+    )
     candidates: int = Field(
         default=5,
         ge=1,

@@ -203,7 +203,10 @@ class LearningAlgorithm:
         self._tell(IterationFinished(self._iteration, result, self._labels(result)))
 
     def _explore(self) -> None:
-        """Run an episode, and others where the explorer ends one with some of the budget left."""
+        """Run an episode, and others where the explorer ends one with some of the budget left.
+
+        Every further one costs the price of a reset.
+        """
         self._resumes = True
         while self._resumes and self._left > 0:
             self._resumes = False
@@ -211,7 +214,7 @@ class LearningAlgorithm:
             recorded = self._earlier.recorded(number)
             episode = self._run_episode(number, recorded)
             self._finish(episode)
-            self._left -= len(episode.transitions)
+            self._left -= len(episode.transitions) + self._settings.exploration.reset_price
             self._resumes &= recorded is None or not recorded.given
 
     def _run_episode(self, number: int, recorded: EpisodeSoFar | None) -> Episode:
