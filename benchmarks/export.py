@@ -1,18 +1,20 @@
 """Whether other planners find in exported problems what we find.
 
-Run: ``python -m benchmarks.export [COUNT [SEED]]`` (50 and 0 by default), with ``pip install
-unified-planning up-fast-downward pyperplan``. A burger run is learned with the embedded model;
-start and goal are pictures of states, one reachable from the other, drawn by the seed. Our planner
-gets the ground problem, Fast Downward the lifted export (``pddl``) and, as pyperplan does, the one
-without negation (``plansys2``). All are asked for a shortest plan; each is translated to skills by
-the table that is exported too, and run in the simulator. The export without negation is held to the
-subset of PDDL that POPF takes.
+Run: ``python -m benchmarks.export [COUNT [SEED [POPF]]]`` (50 and 0 by default), with ``pip
+install unified-planning up-fast-downward pyperplan``; POPF is a program built from its sources. A
+burger run is learned with the embedded model; start and goal are pictures of states, one reachable
+from the other, drawn by the seed. Our planner gets the ground problem, Fast Downward the lifted
+export (``pddl``) and, as pyperplan and POPF do, the one without negation (``plansys2``). All but
+POPF, which takes the first plan that it finds within 30 seconds, are asked for a shortest plan.
+Every plan is translated to skills by the table that is exported too, and run in the simulator. The
+export without negation is held to the subset of PDDL that POPF takes.
 """
 
 from __future__ import annotations
 
 import random
 import re
+import subprocess
 import sys
 import tempfile
 import warnings
@@ -32,6 +34,9 @@ from skillwrapper.planning.unified import to_unified_planning
 from skillwrapper.runs.launch import learn
 from skillwrapper.runs.learned_model import LearnedModel
 from skillwrapper.world.skills import SkillInstance
+
+_PATIENCE = 30
+"""Seconds after which POPF is stopped."""
 
 Plan = tuple[SkillInstance, ...]
 Task = tuple[BurgerState, BurgerState, int]
@@ -59,6 +64,18 @@ def by_pyperplan(exported: Export) -> Plan | None:
     if found is None:
         return None
     steps = (step.name.strip("()").split() for step in found)
+    return tuple(exported.table.instance(name, terms) for name, *terms in steps)
+
+
+def by_popf(exported: Export, program: str) -> Plan | None:
+    """The first plan of POPF; its lines are ``time: (action argument ...)  [duration]``."""
+    with tempfile.TemporaryDirectory() as folder:
+        exported.write(Path(folder))
+        command = ["timeout", str(_PATIENCE), program, "domain.pddl", "problem.pddl"]
+        said = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    if "Solution Found" not in said.stdout:
+        return None
+    steps = (line.split() for line in re.findall(r"^[\d.]+: \((.*)\)", said.stdout, re.M))
     return tuple(exported.table.instance(name, terms) for name, *terms in steps)
 
 
@@ -91,7 +108,11 @@ class Tally:
 
 
 def compare(
-    learned: LearnedModel, environment: BurgerEnvironment, task: Task, tally: Tally
+    learned: LearnedModel,
+    environment: BurgerEnvironment,
+    task: Task,
+    tally: Tally,
+    popf: str | None,
 ) -> None:
     """Let every planner solve one problem."""
     start, end, seed = task
@@ -104,9 +125,11 @@ def compare(
         "Fast Downward, plansys2": by_fast_downward(positive),
         "pyperplan, plansys2": by_pyperplan(positive),
     }
+    tally.agreed += len({None if plan is None else len(plan) for plan in found.values()}) == 1
+    if popf:
+        found["POPF, plansys2"] = by_popf(positive, popf)
     plans = {name: plan for name, plan in found.items() if plan is not None}
     tally.plans.update(plans.keys())
-    tally.agreed += len({None if plan is None else len(plan) for plan in found.values()}) == 1
     tally.executed += all(reaches(environment, task, plan) for plan in plans.values())
     tally.within += not any(outside_subset(positive))
     print(seed, *(f"{name}: {len(plan)}" for name, plan in plans.items()), sep="; ", flush=True)
@@ -122,7 +145,7 @@ def reaches(environment: BurgerEnvironment, task: Task, plan: Plan) -> bool:
     return state == end
 
 
-def main(count: int = 50, seed: int = 0) -> None:
+def main(count: int = 50, seed: int = 0, popf: str | None = None) -> None:
     """Print the lengths of all plans, and how often they agree."""
     warnings.simplefilter("ignore")
     get_environment().credits_stream = None
@@ -134,7 +157,7 @@ def main(count: int = 50, seed: int = 0) -> None:
             for number in range(count):
                 start = chance.choice(states)
                 end = chance.choice(list(environment.reachable_states(start))[1:])
-                compare(learned, environment, (start, end, number), tally)
+                compare(learned, environment, (start, end, number), tally, popf)
     print(f"{count} problems; plans found:")
     for name, times in tally.plans.items():
         print(f"{times:6} {name}")
@@ -143,4 +166,4 @@ def main(count: int = 50, seed: int = 0) -> None:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main(*map(int, sys.argv[1:3]), *sys.argv[3:])

@@ -90,3 +90,18 @@ def test_what_changes_a_set_of_objects_is_refused() -> None:
     changed = replace(first, conditional_effects=frozenset({effect}))
     with pytest.raises(SymbolError, match=f"operator {first.name}: it changes every other object"):
         PositivePddl(replace(model, operators=(changed, *others)), model.domain.objects)
+
+
+@settings(max_examples=25)
+@given(models())
+def test_no_object_is_of_a_type_that_has_subtypes(model: AbstractModel) -> None:
+    """POPF 2 crashes where one is (found with a bun, a pickupable, beside patties, cookable)."""
+    domain = PositivePddl(plain(model), DOMAIN.objects).domain()
+    of = {n: dict(re.findall(r"(\S+) - (\S+)", s)) for n, s in _sections(domain).items()}
+    assert len(of[":constants"]) == len(DOMAIN.objects)
+    assert not {*of[":constants"].values()} & {*of[":types"].values()}
+    assert {*of[":constants"].values()} <= {*of[":types"]}
+
+
+def _sections(domain: str) -> dict[str, str]:
+    return dict(re.findall(r"\((:types|:constants)(.*?)\n  \)", domain, re.S))

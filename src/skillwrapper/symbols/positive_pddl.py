@@ -5,6 +5,7 @@ no disjunction, no ``forall``, no equality. What a model says beyond that is com
 
 - A predicate ``on`` gets a partner ``no_on`` that is true where it is false; effects change both.
 - "Different objects" becomes a static predicate that the problem lists.
+- An object whose type has subtypes gets a subtype of its own: POPF crashes otherwise.
 - "No other object stands in the relation" becomes one atom ``no_on`` for each object. Where the
   objects that are excepted from that matter, the action is written once for each choice of them.
 """
@@ -91,10 +92,7 @@ class PositivePddl:
         parts = [
             "  (:requirements :strips :typing)",
             *self._type_section(),
-            *block(
-                ":constants",
-                (self._typed(self.names.objects[o.name], o.types) for o in self.objects),
-            ),
+            *block(":constants", (self._constant(item) for item in self.objects)),
             *block(":predicates", self._predicate_lines()),
             *(line for action in self.actions for line in self._action(action)),
         ]
@@ -144,7 +142,21 @@ class PositivePddl:
         for name in self._types.tree:
             parent = self._types.parent(name)
             lines.append(f"{self.names.types[name]} - {self._type_name(parent)}")
+        lines += (f"{leaf} - {self._type_name(name)}" for name, leaf in self._leaves.items())
         return block(":types", lines)
+
+    @cached_property
+    def _leaves(self) -> Mapping[str | None, str]:
+        """Of every type with subtypes, and objects that are of none of these, a type for them."""
+        above = {self._types.parent(name) for name in self._types.tree}
+        own = dict.fromkeys(self._types.type_of(item.types) for item in self.objects)
+        taken = self._helpers.taken
+        return {t: unique_name(f"other_{self._type_name(t)}", taken) for t in own if t in above}
+
+    def _constant(self, item: Object) -> str:
+        own = self._types.type_of(item.types)
+        leaf = self._leaves.get(own, self._type_name(own))
+        return f"{self.names.objects[item.name]} - {leaf}"
 
     def _type_name(self, name: str | None) -> str:
         return self._root if name is None else self.names.types[name]
