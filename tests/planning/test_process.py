@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -134,13 +135,16 @@ with Scratch.made("test-") as scratch:
 def test_nothing_outlives_us(tmp_path: Path, temporary: Path, ending: signal.Signals) -> None:
     pid = tmp_path / "pid"
     program = PARENT_OF_A_SLEEPER.format(pid=str(pid), rest="time.sleep(60)")
-    ours = subprocess.Popen(
-        [sys.executable, "-c", OURS, str(temporary), program], stderr=subprocess.DEVNULL
-    )
-    assert comes_true(lambda: pid.is_file() and pid.read_text() != "", seconds=20)
-    assert list(temporary.iterdir())
-    ours.send_signal(ending)
-    ours.wait(5)
+    with subprocess.Popen(
+        [sys.executable, "-c", OURS, str(temporary), program],
+        stderr=subprocess.DEVNULL,
+        # under nohup the hang-up is ignored from the start, and what is ignored is inherited
+        preexec_fn=partial(signal.signal, signal.SIGHUP, signal.SIG_DFL),
+    ) as ours:
+        assert comes_true(lambda: pid.is_file() and pid.read_text() != "", seconds=20)
+        assert list(temporary.iterdir())
+        ours.send_signal(ending)
+        ours.wait(5)
     assert ends_soon(int(pid.read_text()))
     assert comes_true(lambda: not list(temporary.iterdir()))
 
