@@ -13,7 +13,6 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -122,9 +121,10 @@ def test_a_program_that_fills_the_disk_is_stopped(monkeypatch: pytest.MonkeyPatc
 
 
 OURS = """
-import sys, tempfile
+import signal, sys, tempfile
 from pathlib import Path
 from skillwrapper.planning.process import Scratch
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # ignored under nohup, and that is inherited
 tempfile.tempdir = sys.argv[1]
 with Scratch.made("test-") as scratch:
     scratch.run([sys.executable, "-c", sys.argv[2]], text="", seconds=60)
@@ -138,8 +138,6 @@ def test_nothing_outlives_us(tmp_path: Path, temporary: Path, ending: signal.Sig
     with subprocess.Popen(
         [sys.executable, "-c", OURS, str(temporary), program],
         stderr=subprocess.DEVNULL,
-        # under nohup the hang-up is ignored from the start, and what is ignored is inherited
-        preexec_fn=partial(signal.signal, signal.SIGHUP, signal.SIG_DFL),
     ) as ours:
         assert comes_true(lambda: pid.is_file() and pid.read_text() != "", seconds=20)
         assert list(temporary.iterdir())
