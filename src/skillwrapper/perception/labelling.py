@@ -68,12 +68,11 @@ class Labeller:
 
     def announce(self, predicates: Sequence[Predicate]) -> None:
         """Have all pictures read together of which labels of predicates will be needed."""
-        missing = [
-            (scene, p) for scene in self.recorded.scenes for p in self._missing(scene, predicates)
-        ]
+        missing = [(scene, self._missing(scene, predicates)) for scene in self.recorded.scenes]
         self.truth.prefetch(
-            (AtomSpace((p,), scene.objects), self.recorded.observations(scene))
-            for scene, p in missing
+            (AtomSpace(unread, scene.objects), self.recorded.observations(scene))
+            for scene, unread in missing
+            if unread
         )
 
     def values(self, scene: Scene, predicates: Sequence[Predicate]) -> Labels:
