@@ -147,11 +147,18 @@ class PhysicalArms(ArmEnvironment[State, AnyTable]):
     fails if it does not bring what it should. The seed of ``reset`` also decides what goes wrong;
     the same seed and skills bring the same abstract states.
 
+    Args:
+        troubles: what goes wrong.
+        given: what the environment without forces takes.
+        named: the same by name.
+
     Attributes:
         troubles: what goes wrong.
     """
 
-    troubles: Troubles = NO_TROUBLES
+    def __init__(self, troubles: Troubles = NO_TROUBLES, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self.troubles = troubles
 
     def set_state(self, state: State, *, seed: int | None = None) -> Observation:
         """Set the table up anew, everything at rest; a seed also chooses the layout.
