@@ -30,8 +30,10 @@ SECRETS = (KEY, PASSWORD, PROXY, TOKEN, LOGIN)
 
 
 _COMMANDS = """
-import json, sys
+import functools, json, sys
+import typer.main
 from skillwrapper.cli.main import run
+typer.main.get_command = functools.cache(typer.main.get_command)
 for line in json.loads(sys.argv[1]):
     sys.argv[1:] = line
     try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 
 import pytest
+from concepts import wordings
 from seen_kitchen import LEXICON, kitchen
 
 from skillwrapper.embedded.lexicon import Understanding
@@ -29,8 +30,7 @@ def test_every_wording_of_its_own_is_understood_as_what_it_means() -> None:
         for kinds in itertools.product(TYPES, repeat=concept.arity):
             if concept.fits(kinds):
                 for types in itertools.product(*(TYPES[kind] for kind in kinds)):
-                    wordings = itertools.product(concept.wording.names, concept.wording.meanings)
-                    for name, meaning in wordings:
+                    for name, meaning in wordings(concept):
                         sentence = f"{concept.describe(meaning, types)}."
                         found = LEXICON.understand(name, kinds, sentence, GRAPH)
                         assert found is not None

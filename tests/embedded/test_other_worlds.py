@@ -7,6 +7,7 @@ import json
 import struct
 
 import pytest
+from concepts import wordings
 
 from skillwrapper.embedded import Box, EmbeddedModel, SceneGraph, Thing, Words
 from skillwrapper.embedded.lexicon import Lexicon
@@ -81,8 +82,7 @@ def test_a_bare_name_is_wording_enough() -> None:
     for concept in BARE.concepts(GRAPH.outline):
         for kinds in itertools.product(set(KINDS.values()), repeat=concept.arity):
             if concept.fits(kinds):
-                wording = concept.wording
-                for name, meaning in itertools.product(wording.names, wording.meanings):
+                for name, meaning in wordings(concept):
                     found = BARE.understand(name, kinds, concept.describe(meaning, kinds), GRAPH)
                     assert found is not None
                     assert found.concept.idea == concept.idea, (name, meaning)

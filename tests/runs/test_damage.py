@@ -114,7 +114,7 @@ def test_a_whole_run_can_be_read(
     assert done.exit_code == 0, (done.output, done.exception)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True, database=None)
+@settings(max_examples=20, deadline=None, derandomize=True, database=None)
 @given(seed=st.integers(0, 10**9), reader=st.sampled_from(READERS))
 def test_readers_say_what_is_damaged_in_one_sentence(kitchen: Path, seed: int, reader: str) -> None:
     with damaged(kitchen, seed) as run, pytest.MonkeyPatch.context() as patch:
@@ -125,7 +125,7 @@ def test_readers_say_what_is_damaged_in_one_sentence(kitchen: Path, seed: int, r
         assert "\n" not in str(done.exception)
 
 
-@settings(max_examples=40, deadline=None, derandomize=True, database=None)
+@settings(max_examples=20, deadline=None, derandomize=True, database=None)
 @given(seed=st.integers(0, 10**9))
 def test_resuming_mends_a_damaged_run_or_says_why_not(lamps: Path, seed: int) -> None:
     """A run that was mended is what it was; one that cannot be is named in one sentence."""

@@ -73,7 +73,7 @@ def config(url: str | None = None, **calls: object) -> RunSettings:
         domain="burger",
         seed=1,
         iterations=2,
-        exploration=ExplorationSettings(budget=12),
+        exploration=ExplorationSettings(budget=8),
         model=model if url else ModelSettings(),
         calls=CallSettings.model_validate({**FAST, **calls}),
     )

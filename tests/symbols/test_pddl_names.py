@@ -67,7 +67,7 @@ def forests(draw: st.DrawFn) -> AbstractModel:
     return forest(types, (one, two, *predicates, draw(WILD)), draw(st.booleans()))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(forests())
 def test_any_names(model: AbstractModel) -> None:
     check(model)

@@ -29,7 +29,7 @@ from skillwrapper.vlm.parsing import (
 from skillwrapper.vlm.parsing.lines import LONGEST_REPLY, reply_lines
 from skillwrapper.world import Domain
 
-SIZE = 1000
+SIZE = 500
 NAMES = ParameterNames({"robot": 1, "pickupable": 2})
 UNITS = [
     " ", "\n", "\t \n", "true ", "true\n", "(", ")", "a(", "a(b)", "a (", "((a)", "[", "]", "{",

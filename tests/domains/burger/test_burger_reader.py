@@ -72,7 +72,7 @@ def test_a_sample_of_states_in_many_layouts(
 
 @pytest.mark.slow
 def test_every_third_state(renderer: BurgerRenderer, states: tuple[BurgerState, ...]) -> None:
-    """All of them are read in ``evaluation/benchmark/test_smoke.py``, in one layout."""
+    """A quarter of all are read in ``evaluation/benchmark/test_smoke.py``, in one layout."""
     layouts = [make_layout(seed) for seed in (0, 1, 2)]
     check(((state, layouts[n % 3]) for n, state in enumerate(states[1::3])), renderer)
 
