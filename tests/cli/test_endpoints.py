@@ -59,7 +59,7 @@ def config(model: ModelSettings, **calls: object) -> RunSettings:
         domain="burger",
         seed=1,
         iterations=2,
-        exploration=ExplorationSettings(budget=8),
+        exploration=ExplorationSettings(budget=5),
         model=model,
         calls=CallSettings.model_validate({**FAST, **calls}),
     )
@@ -84,7 +84,7 @@ def command(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
 
 def small(out: Path, server: VlmServer | None = None, model: str = "embedded") -> list[str]:
     where = ["--base-url", server.url] if server else []
-    size = ["--seed", "1", "--iterations", "2", "--budget", "8"]
+    size = ["--seed", "1", "--iterations", "2", "--budget", "5"]
     return ["learn", "burger", "--out", str(out), *size, "--model", f"openai:{model}", *where]
 
 
@@ -228,7 +228,7 @@ def test_the_doctor_tries_the_templates_of_the_user(
 def test_agreement_of_votes_is_shown(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    size = ["--seed", "1", "--iterations", "1", "--budget", "8"]
+    size = ["--seed", "1", "--iterations", "1", "--budget", "5"]
     run = str(tmp_path / "run")
     assert command(monkeypatch, "learn", "burger", "--out", run, *size, "--votes", "3") == 0
     capsys.readouterr()
@@ -291,7 +291,7 @@ def test_a_dry_run_asks_and_writes_nothing(
     line = small(tmp_path / "run", server, "embedded")
     assert command(monkeypatch, *line, "--dry-run", "--json") == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["executions"] == 16
+    assert told["executions"] == 10
     assert told["cost"] is None
     assert told["calls"][0] > 10
     assert server.calls == 0

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import subprocess
 import sys
 from base64 import b64encode
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
+from command_line import commands_apart
 from seen_kitchen import embedded_model
 
 from skillwrapper.embedded import server_faults as faults
@@ -29,20 +29,6 @@ LOGIN = b64encode(f"robin:{PASSWORD}".encode()).decode()
 SECRETS = (KEY, PASSWORD, PROXY, TOKEN, LOGIN)
 
 
-_COMMANDS = """
-import functools, json, sys
-import typer.main
-from skillwrapper.cli.main import run
-typer.main.get_command = functools.cache(typer.main.get_command)
-for line in json.loads(sys.argv[1]):
-    sys.argv[1:] = line
-    try:
-        run()
-    except SystemExit:
-        pass
-"""
-
-
 def run(where: Path, *lines: Sequence[str]) -> str:
     """All that commands say, in one process; logs of the client as loud as they go."""
     kept = {k: v for k, v in os.environ.items() if not k.lower().endswith("_proxy")}
@@ -54,17 +40,7 @@ def run(where: Path, *lines: Sequence[str]) -> str:
         "OPENAI_LOG": "debug",
         "HOME": str(where),
     }
-    done = subprocess.run(
-        [sys.executable, "-c", _COMMANDS, json.dumps(lines)],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=environment,
-        cwd=where,
-        timeout=300,
-    )
-    assert "Traceback" not in done.stderr
-    return done.stdout + done.stderr
+    return commands_apart(lines, environment, where)
 
 
 def assert_clean(said: str, folder: Path) -> None:

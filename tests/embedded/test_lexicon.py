@@ -5,8 +5,8 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from concepts import wordings
 from seen_kitchen import LEXICON, kitchen
+from turns import in_turn
 
 from skillwrapper.embedded.lexicon import Understanding
 
@@ -29,13 +29,14 @@ def test_every_wording_of_its_own_is_understood_as_what_it_means() -> None:
     for concept in LEXICON.concepts(GRAPH.outline):
         for kinds in itertools.product(TYPES, repeat=concept.arity):
             if concept.fits(kinds):
-                for types in itertools.product(*(TYPES[kind] for kind in kinds)):
-                    for name, meaning in wordings(concept):
-                        sentence = f"{concept.describe(meaning, types)}."
-                        found = LEXICON.understand(name, kinds, sentence, GRAPH)
-                        assert found is not None
-                        assert (found.concept.key, name, sentence) == (concept.key, name, sentence)
-                        assert found.order == tuple(range(len(kinds)))
+                every = list(itertools.product(*(TYPES[kind] for kind in kinds)))
+                names, meanings = concept.wording.names, concept.wording.meanings
+                for types, name, meaning in in_turn(every, names, meanings):
+                    sentence = f"{concept.describe(meaning, types)}."
+                    found = LEXICON.understand(name, kinds, sentence, GRAPH)
+                    assert found is not None
+                    assert (found.concept.key, name, sentence) == (concept.key, name, sentence)
+                    assert found.order == tuple(range(len(kinds)))
 
 
 @pytest.mark.parametrize(

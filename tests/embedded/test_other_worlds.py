@@ -7,7 +7,7 @@ import json
 import struct
 
 import pytest
-from concepts import wordings
+from turns import in_turn
 
 from skillwrapper.embedded import Box, EmbeddedModel, SceneGraph, Thing, Words
 from skillwrapper.embedded.lexicon import Lexicon
@@ -80,12 +80,13 @@ def test_what_a_reader_reports_is_understood_without_further_words(
 
 def test_a_bare_name_is_wording_enough() -> None:
     for concept in BARE.concepts(GRAPH.outline):
-        for kinds in itertools.product(set(KINDS.values()), repeat=concept.arity):
-            if concept.fits(kinds):
-                for name, meaning in wordings(concept):
-                    found = BARE.understand(name, kinds, concept.describe(meaning, kinds), GRAPH)
-                    assert found is not None
-                    assert found.concept.idea == concept.idea, (name, meaning)
+        wording = concept.wording
+        every = itertools.product(dict.fromkeys(KINDS.values()), repeat=concept.arity)
+        fitting = [kinds for kinds in every if concept.fits(kinds)]
+        for kinds, name, meaning in in_turn(fitting, wording.names, wording.meanings):
+            found = BARE.understand(name, kinds, concept.describe(meaning, kinds), GRAPH)
+            assert found is not None
+            assert found.concept.idea == concept.idea, (name, meaning)
 
 
 def test_an_attribute_is_no_matter_of_things_in_which_it_is_not_looked_for() -> None:

@@ -1,11 +1,19 @@
-"""Running commands in the process of the test."""
+"""Running commands in the process of the test, or in one that starts with nothing but the code."""
 
 from __future__ import annotations
 
+import contextlib
+import multiprocessing
+import os
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from skillwrapper.cli.main import main
+from skillwrapper.cli.main import main, run
+
+_APART = multiprocessing.get_context("forkserver")
+# Loading the code takes longer than most commands; so it is loaded once, then forked.
+_APART.set_forkserver_preload([__name__, "skillwrapper.cli.main"])
 
 
 def command(*words: str | Path) -> int:
@@ -18,3 +26,35 @@ def command(*words: str | Path) -> int:
     finally:
         sys.argv = before
     return 0
+
+
+def commands_apart(
+    lines: Sequence[Sequence[str]], environment: Mapping[str, str], where: Path
+) -> str:
+    """All that commands say in a process of their own, with this environment, in this folder."""
+    said = where.with_name(f"{where.name}-said")
+    process = _APART.Process(target=_run_all, args=(lines, dict(environment), where, said))
+    process.start()
+    process.join(300)
+    process.kill()
+    text = said.read_text()
+    said.unlink()
+    assert "Traceback" not in text
+    assert process.exitcode == 0, text
+    return text
+
+
+def _run_all(
+    lines: Sequence[Sequence[str]], environment: dict[str, str], where: Path, said: Path
+) -> None:
+    os.environ.clear()
+    os.environ.update(environment)
+    os.chdir(where)
+    target = os.open(said, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+    for stream in (sys.stdout, sys.stderr):
+        os.dup2(target, stream.fileno())
+    for line in lines:
+        sys.argv = ["skillwrapper", *line]
+        with contextlib.suppress(SystemExit):
+            run()
+        sys.stdout.flush()
