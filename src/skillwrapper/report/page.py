@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -57,8 +57,9 @@ def write_report(
     return target
 
 
+@cache
 def page_environment() -> Environment:
-    """What renders the templates of reports."""
+    """What renders the templates of reports; each of them is compiled once."""
     environment = Environment(
         loader=PackageLoader("skillwrapper", _TEMPLATES),
         autoescape=True,

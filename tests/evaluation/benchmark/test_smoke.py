@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,8 +13,14 @@ from typer.testing import CliRunner
 from skillwrapper.cli import experiments
 from skillwrapper.domains.burger.environment import BurgerEnvironment
 from skillwrapper.domains.burger.states import BurgerState
+from skillwrapper.evaluation.benchmark import running
+from skillwrapper.evaluation.methods.learned import unchanged
 from skillwrapper.evaluation.methods.registry import METHODS
-from skillwrapper.evaluation.methods.skillwrapper import OURS_OFTEN_RESET, OURS_ONCE_A_SCENE
+from skillwrapper.evaluation.methods.skillwrapper import (
+    OURS_OFTEN_RESET,
+    OURS_ONCE_A_SCENE,
+    OURS_PAPER_BUDGET,
+)
 
 SMOKE = Path(__file__).parents[3] / "experiments" / "smoke.yaml"
 PREPARED = BurgerState(cut=True, cooked=True)
@@ -24,6 +31,9 @@ COUNTS = {"easy": 3, "hard": 2, "impossible": 2}
 @pytest.mark.slow
 def test_smoke(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(BurgerEnvironment, "start", lambda kitchen: PREPARED)
+    # Its own size, that of the paper, is checked in ``methods/test_configurations.py``.
+    as_small = replace(OURS_PAPER_BUDGET, configure=unchanged)
+    monkeypatch.setattr(running, "METHODS", {**METHODS, as_small.name: as_small})
     app = typer.Typer()
     experiments.register(app)
     out = tmp_path / "smoke"
