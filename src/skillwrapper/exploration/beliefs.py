@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from skillwrapper.exploration.analogies import Analogies, newness
 from skillwrapper.exploration.novelty import Features, Novelty, see_features
 from skillwrapper.exploration.promise import promise_of
 from skillwrapper.grounding import FALSE, TRUE, AtomSpace, Labels
@@ -27,7 +28,8 @@ class Expectations:
 
     Attributes:
         success: how likely the instance works.
-        alone: how new it is beside failures: something is seen that none of them saw, 0 to 1.
+        alone: how new it is beside failures: something is seen that none of them saw, 0 to 1; if
+            the skill never succeeded, also beside those that were alike by what other skills need.
         pairs: the same by pairs of what is seen.
         promise: how promising it is if the skill never succeeded, or not with arguments of such
             types, but for a factor; else 0.
@@ -61,9 +63,12 @@ class SkillBeliefs:
         fit: what was learned.
         skill: name of the skill.
         doubt: how likely a failure has a cause that no predicate speaks of.
+        others: of the operators of other skills, if this one never succeeded.
     """
 
-    def __init__(self, fit: Fit, skill: str, doubt: float) -> None:
+    def __init__(
+        self, fit: Fit, skill: str, doubt: float, others: Sequence[VersionSpace] = ()
+    ) -> None:
         self._types = fit.domain.types.names
         self.of_skill: SkillFit = fit.skill(skill)
         self.spaces: tuple[VersionSpace, ...] = version_spaces(fit, skill, doubt=doubt)
@@ -75,6 +80,9 @@ class SkillBeliefs:
         self._tried = frozenset(self._attempted(seen))
         self._worked = frozenset(self._kinds(success=True))
         self._failed = self._kinds(success=False)
+        arity = len(fit.domain.skill_by_name[skill].parameters)
+        self._analogies = Analogies(others, arity)
+        self._failed_members = self._members_that_failed()
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
 
     def expect(
@@ -119,6 +127,9 @@ class SkillBeliefs:
         useful_attempts = Attempts(looked_up, attempts.arguments, attempts.rows, attempts.which)
         seen = see_features(useful, useful_attempts, self._types)
         failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
+        members = self._analogies.members(space, attempts)
+        alike = newness(seen, members, self._failures, self._failed_members)
+        alone = np.maximum(failed.alone, alike)
         promise = self._promise(space, seen, attempts)
         untried = self._untried(seen, attempts, instances)
         unlike, elsewhere = (
@@ -126,7 +137,7 @@ class SkillBeliefs:
             for success in (True, False)
         )
         return [
-            failed.alone, failed.pairs, promise, done.alone, done.pairs, untried, unlike, elsewhere
+            alone, failed.pairs, promise, done.alone, done.pairs, untried, unlike, elsewhere
         ]  # fmt: skip
 
     def _untried(
@@ -150,6 +161,14 @@ class SkillBeliefs:
             earlier = np.vstack([states[:0], *rows])
             found[:, number] = Novelty.of(seen, _values(earlier)).pairs
         return found
+
+    def _members_that_failed(self) -> NDArray[np.bool_]:
+        """Of which families earlier failures were (failures, families)."""
+        found = [
+            self._analogies.members(table.space, attempts_of(table))[~table.success]
+            for table in self._tables
+        ]
+        return np.vstack(found) if found else np.zeros((0, 0), dtype=bool)
 
     def _promise(self, space: AtomSpace, seen: Features, attempts: Attempts) -> NDArray[np.float64]:
         """Of attempts at the skill, or with such types, that never succeeded (attempts,)."""
@@ -212,10 +231,15 @@ class Beliefs:
 
     def of_skill(self, fit: Fit, skill: str, doubt: float) -> SkillBeliefs:
         """What is believed of a skill."""
-        key = (id(fit.skill(skill)), fit.predicates, doubt)
+        others = () if fit.skill(skill).operators else self._spaces_of_all(fit, doubt)
+        key = (id(fit.skill(skill)), fit.predicates, doubt, others)
         if skill not in self._skills or self._skills[skill][0] != key:
-            self._skills[skill] = (key, SkillBeliefs(fit, skill, doubt))
+            self._skills[skill] = (key, SkillBeliefs(fit, skill, doubt, others))
         return self._skills[skill][1]
+
+    def _spaces_of_all(self, fit: Fit, doubt: float) -> tuple[VersionSpace, ...]:
+        known = [s.skill for s in fit.each() if s.operators]
+        return tuple(space for name in known for space in self.of_skill(fit, name, doubt).spaces)
 
     def expect(
         self,
