@@ -11,7 +11,7 @@ from skillwrapper.invention.unnoticed import look_alikes, tells_more
 from skillwrapper.invention.witnesses import Witnesses
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.perception.labelling import Labeller
+from skillwrapper.perception.labelling import Labeller, TruthSource
 from skillwrapper.symbols import Predicate
 
 ALIKE = "does not tell the two transitions apart"
@@ -83,11 +83,30 @@ class Screen:
     def _alike(
         self, inconsistency: Inconsistency, candidates: Sequence[Predicate]
     ) -> set[Predicate]:
-        """Those that tell the culprit from none of its partners."""
+        """Those that tell the culprit from none of its partners.
+
+        Where readings may be wrong, the very difference may be misread. A question about a picture
+        costs as much for one candidate as for many: as soon as one is to be read everywhere, all
+        are. If none is, all are read in the pictures around too, and decoded.
+        """
+        pairs = inconsistency.pairs if self._settings.rotate else (inconsistency,)
+        alike = self._told_by_none(pairs, candidates, self._labeller.truth)
+        numbers = {n for pair in pairs for n in (pair.first, pair.second) if n is not None}
+        around = self._labeller.around(sorted(numbers))
+        if around is None:
+            return alike
+        if len(alike) < len(candidates):
+            return set()
+        return self._told_by_none(pairs, candidates, around)
+
+    def _told_by_none(
+        self, pairs: Sequence[Inconsistency], candidates: Sequence[Predicate], truth: TruthSource
+    ) -> set[Predicate]:
+        """The candidates that tell the transitions of no pair apart."""
         alike = set(candidates)
-        for pair in inconsistency.pairs if self._settings.rotate else (inconsistency,):
+        for pair in pairs:
             left = [p for p in candidates if p in alike]
-            witnesses = Witnesses(self._labeller, pair)
+            witnesses = Witnesses(self._labeller.recorded, truth, pair)
             witnesses.look(left)
             alike -= {p for p in left if witnesses.are_told_apart(p)}
         return alike

@@ -22,7 +22,7 @@ class Trial:
             transition is decided.
         remains: whether the inconsistency it was asked for remains.
         undecided: whether it is gone only for want of a label (D10).
-        misreadings: how many of its readings are taken for mistakes (D24).
+        misreadings: what was read of it takes as much to describe as so many misreadings (D24).
     """
 
     predicate: Predicate
@@ -99,8 +99,9 @@ class Trial:
         """Smaller is better: what is left of conditions 1 and 2 and the operators that it takes,
         what is left of the other kinds, the number of groundings to evaluate.
 
-        A reading that is taken for a mistake counts as much as a transition that is wrong: what
-        tells of places in the picture follows no rule, and seems to be misread.
+        A reading that is taken for a mistake counts as much as a transition that is wrong, and so
+        do rules that take as much to say: what tells of places in the picture follows none, and
+        seems to be misread, or to change by chance.
         """
         wrong = self.misreadings
         return self.fit.hard_cost + wrong, self.fit.cost + wrong, self.predicate.arity

@@ -13,9 +13,10 @@ from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.lifted_states import LiftedState, lifted_state
-from skillwrapper.perception.labelling import Labeller
+from skillwrapper.perception.labelling import TruthSource
 from skillwrapper.symbols import Literal, Predicate
 from skillwrapper.transitions.lifting import LiftedChange, lift_change
+from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.transitions.tables import changed_literals
 from skillwrapper.world.observation import Observation
 
@@ -24,13 +25,16 @@ class Witnesses:
     """Tells whether candidates tell the transitions of an inconsistency apart.
 
     Args:
-        labeller: holds the transitions, and labels their pictures.
+        recorded: the transitions.
+        truth: labels their pictures.
         inconsistency: names two of them, or one with an unexplained change.
     """
 
-    def __init__(self, labeller: Labeller, inconsistency: Inconsistency) -> None:
-        self._truth = labeller.truth
-        self._records = labeller.recorded.records
+    def __init__(
+        self, recorded: RecordedTransitions, truth: TruthSource, inconsistency: Inconsistency
+    ) -> None:
+        self._truth = truth
+        self._records = recorded.records
         self._inconsistency = inconsistency
         self._compares_changes = (
             inconsistency.second is None or inconsistency.kind is InconsistencyKind.EFFECT

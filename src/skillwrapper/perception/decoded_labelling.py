@@ -12,6 +12,7 @@ from skillwrapper.perception.decoding.decoder import Decoding, decode
 from skillwrapper.perception.decoding.odds import Floats, to_probability
 from skillwrapper.perception.decoding.priors import Priors
 from skillwrapper.perception.labelling import Labeller, TruthSource
+from skillwrapper.perception.surroundings import Surroundings
 from skillwrapper.symbols import Predicate
 from skillwrapper.transitions.labelled import LabelledTransitions, PredicateLabels
 from skillwrapper.transitions.recorded import RecordedTransitions
@@ -67,9 +68,9 @@ class DecodedLabeller(Labeller):
         return self._priors.misread if estimated is None else estimated
 
     def misreadings(self, predicate: Predicate) -> float:
-        """How many readings of a predicate are taken for mistakes, by what they weigh."""
+        """What was read of a predicate takes as much to describe as so many misreadings."""
         self._keep_up()
-        return self._decoding_of(predicate).misfit[predicate] / self._priors.reading_odds
+        return self._decoding_of(predicate).nats[predicate] / self._priors.reading_odds
 
     def doubt(self, number: int) -> float:
         """The probability that something is misread in the pictures of a transition."""
@@ -78,12 +79,18 @@ class DecodedLabeller(Labeller):
         nodes = [record.before, record.after]
         return float(to_probability(dirt[record.scene][nodes]).max())
 
+    def around(self, numbers: Sequence[int]) -> TruthSource:
+        """Labels of the pictures of some transitions, decoded with those around them."""
+        self._keep_up()
+        return Surroundings(self.recorded, self.truth, self._chains, numbers, self._decode_given)
+
     @property
     def decoding(self) -> Decoding:
         """What is believed of the vocabulary in use."""
         self._keep_up()
         if self._together is None:
-            self._together = self._decode(self._in_use, None)
+            labels = self._readings_of(self._in_use)
+            self._together = decode(self._chains, self._in_use, labels, self._priors)
         return self._together
 
     def readings(self, scene: Scene, predicates: Sequence[Predicate]) -> Labels:
@@ -107,13 +114,17 @@ class DecodedLabeller(Labeller):
         if predicate in self._in_use:
             return self.decoding
         if predicate not in self._alone:
-            given = self.decoding.without({predicate.name})
-            self._alone[predicate] = self._decode((predicate,), given)
+            labels = self._readings_of((predicate,))
+            self._alone[predicate] = self._decode_given(predicate, labels)
         return self._alone[predicate]
 
-    def _decode(self, predicates: Sequence[Predicate], given: Decoding | None) -> Decoding:
-        labels = [self.readings(chain.scene, predicates) for chain in self._chains]
-        return decode(self._chains, predicates, labels, self._priors, given)
+    def _decode_given(self, predicate: Predicate, labels: Sequence[Labels]) -> Decoding:
+        """Decode a predicate by itself, given those in use."""
+        given = self.decoding.without({predicate.name})
+        return decode(self._chains, (predicate,), labels, self._priors, given)
+
+    def _readings_of(self, predicates: Sequence[Predicate]) -> list[Labels]:
+        return [self.readings(chain.scene, predicates) for chain in self._chains]
 
     @property
     def _in_use(self) -> tuple[Predicate, ...]:

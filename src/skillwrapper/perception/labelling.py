@@ -90,12 +90,23 @@ class Labeller:
         return 0.0
 
     def misreadings(self, predicate: Predicate) -> float:
-        """How many readings of a predicate are taken for mistakes, by what they weigh."""
+        """What was read of a predicate takes as much to describe as so many misreadings.
+
+        Those that there are count, and the rules by which it changes; 0 if all readings are taken
+        for right.
+        """
         return 0.0
 
     def doubt(self, number: int) -> float:
         """The probability that something is misread in the pictures of a transition."""
         return 0.0
+
+    def around(self, numbers: Sequence[int]) -> TruthSource | None:
+        """Labels of the pictures of some transitions, by those around them too.
+
+        None where readings are taken for right: pictures around tell nothing more then.
+        """
+        return None
 
     def _joined(self, scene: Scene, labels: Sequence[PredicateLabels]) -> Labels:
         shape = (len(self.recorded.observations(scene)), 0)

@@ -29,7 +29,7 @@ class Decoding:
             is true.
         dirt: for every chain the log-odds (nodes,) that something in a picture is misread.
         rates: how often each predicate is misread.
-        misfit: how little the readings of each predicate fit what is believed, in nats.
+        nats: what it takes to describe the readings of each predicate, with its rules.
         exception: how often a rule is broken.
     """
 
@@ -37,7 +37,7 @@ class Decoding:
     posterior: tuple[Mapping[Predicate, Floats], ...]
     dirt: tuple[Floats, ...]
     rates: Mapping[Predicate, ErrorRates]
-    misfit: Mapping[Predicate, float]
+    nats: Mapping[Predicate, float]
     exception: float
 
     @property
@@ -144,13 +144,13 @@ def _better(problem: Problem, bold: Estimation, shy: Estimation) -> Estimation:
 def _result(problem: Problem, found: Estimation) -> Decoding:
     cells, predicates = problem.cells, problem.cells.predicates
     nodes = np.cumsum([part.chain.nodes for part in cells.parts])[:-1]
-    misfit = found.readings.misfit(found.belief).tolist()
+    nats = found.description().tolist()
     return Decoding(
         predicates,
         tuple(dict(_by_predicate(part, found.belief)) for part in cells.parts),
         tuple(np.split(found.readings.dirt, nodes)),
         dict(zip(predicates, found.readings.rates(), strict=True)),
-        dict(zip(predicates, misfit, strict=True)),
+        dict(zip(predicates, nats, strict=True)),
         found.rules.exception,
     )
 
