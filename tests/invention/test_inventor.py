@@ -519,6 +519,23 @@ class Doubting(Labeller):
         return 0.02
 
 
+def _kinds_asked_of_one_success(labeller: type[Labeller]) -> list[str]:
+    """Of a success that seems to do no more than failures, seen in several states."""
+    notebook = Notebook(KITCHEN)
+    notebook.success("round(a)", "Take(r, a)", "round(a) held(a)")
+    notebook.failure("round(b)", "Take(r, b)")
+    notebook.failure("#2", "Take(r, b)")
+    study = Study(notebook, active=[ROUND], labeller=labeller, attempts=1, unnoticed=False)
+    study.inventor.invent()
+    return study.proposer.kinds
+
+
+def test_of_a_success_it_is_not_asked_again_and_again_what_it_changes() -> None:
+    """If readings may be wrong, further failures beside it tell no more (D24)."""
+    assert _kinds_asked_of_one_success(Labeller).count("effect") == 2
+    assert _kinds_asked_of_one_success(Doubting).count("effect") == 1
+
+
 def test_after_nothing_other_objects_are_looked_at_too_once_half_as_much_again_was_run() -> None:
     notebook = silent_wave()
     study = Study(notebook, active=[ROUND])

@@ -17,6 +17,11 @@ USED = (FULL, ON, HELD)
 
 class _Doubting(Labeller):
     doubts: dict[int, float]
+    misread_share = 0.0
+
+    @property
+    def misread(self) -> float:
+        return self.misread_share
 
     def doubt(self, number: int) -> float:
         return self.doubts.get(number, 0.9)
@@ -45,6 +50,33 @@ def test_what_was_seen_clearly_is_ripe_and_comes_first() -> None:
 def test_what_was_seen_often_is_ripe() -> None:
     ripeness, found = _found(4, {})
     assert len(ripeness.ripe(found, USED)) == 4
+
+
+def test_what_has_just_come_up_waits_for_further_pictures() -> None:
+    book = barn("#0", "full(h) #0")
+    labeller = _Doubting(book.recorded, book)
+    labeller.doubts, labeller.misread_share = {2: 0.1}, 0.02
+    (one, *_) = book.fit(HELD).inconsistencies
+    ripeness, found = Ripeness(labeller), [replace(one, culprit=2)]
+    ripeness.leave([])
+    ripeness.look(found)
+    ripeness.leave(found)
+    assert ripeness.ripe(found, USED) == ()
+    assert ripeness.ripe(found, USED[:2]), "nothing can tell yet what is misread"
+    for number in range(2):
+        book.failure(f"full(h) #{number + 7}", "Lift(h, a)")
+    ripeness.look(found)
+    assert ripeness.ripe(found, USED)
+
+
+def test_what_another_vocabulary_brings_up_need_not_wait() -> None:
+    book = barn("#0")
+    labeller = _Doubting(book.recorded, book)
+    labeller.doubts, labeller.misread_share = {2: 0.1}, 0.02
+    (one, *_) = book.fit(HELD).inconsistencies
+    ripeness = Ripeness(labeller)
+    ripeness.look([])
+    assert ripeness.ripe([replace(one, culprit=2)], USED)
 
 
 @pytest.mark.parametrize(

@@ -87,6 +87,7 @@ class Inventor:
         self._executions: dict[str, int] = {}
         self._attempts: Counter[Identity] = Counter()
         self._questions: Counter[Identity] = Counter()
+        self._vain: Counter[int] = Counter()
         self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
         self._open: frozenset[Identity] = frozenset()
         self._rounds_left = settings.max_inventions
@@ -110,11 +111,13 @@ class Inventor:
         fit = self._fitter.fit(self._vocabulary.active)
         if not self._settings.new_causes:
             return fit
+        self._ripeness.look(fit.inconsistencies)
         causes = self._causes(fit)
         if causes - self._open:
             fit = self._mend()
             causes = self._causes(fit)
         self._open = causes
+        self._ripeness.leave(fit.inconsistencies)
         return fit
 
     def invent(self) -> Fit:
@@ -124,6 +127,8 @@ class Inventor:
         ``max_trials`` candidates.
         """
         self._admit_new_data()
+        if self._fitter.labeller.misread:
+            self._ripeness.look(self._fitter.fit(self._vocabulary.active).inconsistencies)
         asks = self._settings.unnoticed and self._fitter.labeller.misread <= _SELDOM
         if asks:
             self._look_through_shelf()
@@ -132,6 +137,7 @@ class Inventor:
         if self._settings.keep_best:
             fit = self._keep_best(fit)
         self._open = self._causes(fit)
+        self._ripeness.leave(fit.inconsistencies)
         self._rounds_left = self._settings.max_inventions
         self._trials_left = self._settings.max_trials
         return fit
@@ -238,6 +244,7 @@ class Inventor:
             self._executions = executions
             for identity in [i for i in self._attempts if i[0] in new]:
                 del self._attempts[identity]
+            self._vain.clear()
             self._postponed.clear()
             self._rejections.admit_data_of(new)
 
@@ -249,7 +256,7 @@ class Inventor:
         """
         tries = self._settings.attempts
         causes = distinct_causes(self._ripe(fit))
-        left = [c for c in causes if self._attempts[c.identity] < tries]
+        left = [c for c in causes if self._attempts[c.identity] < tries and self._may_tell(c)]
         if not left and unnoticed:
             return self._unnoticed.next(fit, self._fitter.recorded)
         return min(
@@ -257,6 +264,15 @@ class Inventor:
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),
             default=None,
         )
+
+    def _may_tell(self, cause: Inconsistency) -> bool:
+        """Whether a success is shown of which it was not asked in vain too often what it changes.
+
+        If readings may be wrong, further failures beside it tell no more; another success may.
+        """
+        if cause.kind is not InconsistencyKind.EFFECT or not self._fitter.labeller.misread:
+            return True
+        return any(self._vain[pair.first] < self._settings.attempts for pair in cause.pairs)
 
     def _ripe(self, fit: Fit) -> tuple[Inconsistency, ...]:
         """What is inconsistent and no suspected misreading."""
@@ -310,6 +326,8 @@ class Inventor:
             )
         if is_named:
             return
+        if inconsistency.kind is InconsistencyKind.EFFECT:
+            self._vain.update({pair.first for pair in inconsistency.pairs})
         postponed = self._postponed.get(inconsistency.identity, ())
         if attempt + 1 >= self._settings.attempts and postponed:
             self._take_best(inconsistency, postponed)
