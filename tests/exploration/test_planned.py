@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from house import HOUSE, House
+from notebook import instance
 
-from skillwrapper.exploration.explorer import NextSkill
+from skillwrapper.exploration.explorer import NextSkill, Situation
 from skillwrapper.exploration.planned import PlannedExplorer
 from skillwrapper.exploration.settings import ExplorationSettings
+from skillwrapper.learning.fitting import Fit
 
 
 def explore(seed: int, episodes: int = 4, length: int = 9) -> tuple[House, list[NextSkill]]:
@@ -70,3 +74,35 @@ def test_where_all_seems_known_it_goes_elsewhere_or_does_what_it_rarely_did() ->
             explorer.record(house.reset())
     assert "was tried most rarely; nothing seems worth more" in reasons
     assert "drawn by chance to get elsewhere, as nothing seems new" in reasons
+
+
+def _frail_light(house: House, left: int) -> Situation:
+    """A situation in which the only success of Light rests on doubtful labels."""
+    situation = house.situation(left)
+    fit = situation.fit
+    (number,) = (
+        n
+        for n, record in enumerate(house.notebook.recorded.records)
+        if record.transition.success and record.transition.instance.skill == "Light"
+    )
+    frail = {"Light": (number,)}
+    doubtful = Fit(
+        fit.domain,
+        fit.predicates,
+        lambda skill: replace(fit.skill(skill.name), frail=frail.get(skill.name, ())),
+    )
+    return replace(situation, learn=lambda: doubtful)
+
+
+def test_what_rests_on_doubtful_labels_is_seen_again() -> None:
+    house = House()
+    explorer = PlannedExplorer(HOUSE, ExplorationSettings(), 0)
+    for name in ("Open(h, front)", "Open(h, back)", "Light(h, lamp)"):
+        explorer.next_skill(house.situation())
+        house.run(instance(name))
+    explorer.record(house.reset())
+    known = explorer.think(house.situation()).worth.repeat
+    thought = explorer.think(_frail_light(house, 9))
+    worth = dict(zip(thought.scene.instances, thought.worth.repeat.max(axis=0), strict=True))
+    assert not known.any()
+    assert {i.skill for i, value in worth.items() if value > 0} == {"Light"}

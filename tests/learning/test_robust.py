@@ -104,3 +104,15 @@ def test_what_is_not_in_doubt_is_never_explained_away() -> None:
     )
     faithful, robust = FaithfulLearner().learn(certain), RobustLearner().learn(certain)
     assert _described(robust) == _described(faithful)
+
+
+def test_what_a_single_success_tells_is_worth_seeing_again() -> None:
+    kitchen = MisreadKitchen(60, seed=1)
+    decoded = DecodedLabeller(kitchen.recorded, kitchen, lambda: VOCABULARY)
+    fit = RobustLearner().learn(decoded.label(VOCABULARY))
+    alone = {o.cluster.ids[0] for o in fit.operators if len(o.cluster.ids) == 1}
+    assert alone
+    assert alone <= {number for of in fit.skills.values() for number in of.frail}
+    raw = Labeller(kitchen.recorded, kitchen).label(VOCABULARY)
+    certain = RobustLearner().learn(raw)
+    assert not any(of.frail for of in certain.skills.values())

@@ -12,7 +12,6 @@ from skillwrapper.exploration.histories import Deeds, Histories
 from skillwrapper.exploration.roles import Kind, RoleNumbers, Roles, SceneRoles
 from skillwrapper.grounding import Labels
 from skillwrapper.grounding.abstract_states import different_rows
-from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Transition
 from skillwrapper.world.scenes import Scene
@@ -174,11 +173,11 @@ class Memory:
         return _worn(self.successes[skill])
 
     def pursue(
-        self, causes: Iterable[Inconsistency], scene: SceneRoles, instance: SkillInstance
+        self, attempts: Iterable[tuple[str, int]], scene: SceneRoles, instance: SkillInstance
     ) -> None:
-        """Take note that what the model cannot explain is looked at again by an attempt now."""
+        """Take note that earlier attempts, by skill and number, are repeated by one now."""
         signature = scene.signature(self.roles, scene.number[instance])
-        same = {self.signatures[cause.culprit] for cause in causes if cause.skill == instance.skill}
+        same = {self.signatures[number] for skill, number in attempts if skill == instance.skill}
         # Who has other roles than all of them stands for each of them.
         for pursued in same & {signature} or same:
             self.pursued[instance.skill, pursued] += 1

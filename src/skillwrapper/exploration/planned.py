@@ -7,7 +7,7 @@ it takes. After every outcome all is thought over anew (docs/semantics.md D16).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -22,13 +22,14 @@ from skillwrapper.exploration.memory import Memory
 from skillwrapper.exploration.prospects import price
 from skillwrapper.exploration.roles import SceneRoles
 from skillwrapper.exploration.settings import ExplorationSettings
-from skillwrapper.exploration.worth import Values, Weights, Worth, weigh
+from skillwrapper.exploration.worth import Lead, Values, Weights, Worth, weigh
 from skillwrapper.grounding import AtomSpace, GroundModel, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.grounding.search import StateGraph
 from skillwrapper.learning.fitting import Fit
-from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
+from skillwrapper.learning.inconsistencies import distinct_causes
+from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.symbols.operators import Operator
 from skillwrapper.world.domain import Domain
 from skillwrapper.world.episode import Episode, Transition
@@ -47,6 +48,7 @@ _WHY: Mapping[str, str] = {
     "check": "checks that {instance} works as the model says",
     "cover": "{skill} was never tried after what was last done with these objects",
     "witness": "looks again at an attempt at {skill} that the model cannot explain",
+    "repeat": "sees {skill} again, of which only doubtful labels tell",
 }
 
 
@@ -59,7 +61,8 @@ class Thought:
         lookahead: what is within reach, the present first.
         worth: what every instance is worth in every node, by what for.
         values: the same all together; less than nothing for what was tried before just here.
-        causes: what the model cannot explain, one inconsistency for each cause.
+        causes: what the model cannot explain, one transition for each cause.
+        frail: successes that rest on doubtful labels.
         graph: the states of the model.
         space: their ground atoms.
         left: how many skills may still be run in this episode.
@@ -70,7 +73,8 @@ class Thought:
     lookahead: Lookahead
     worth: Worth
     values: Values
-    causes: tuple[Inconsistency, ...]
+    causes: tuple[Lead, ...]
+    frail: tuple[Lead, ...]
     graph: StateGraph
     space: AtomSpace
     left: int
@@ -118,9 +122,10 @@ class Thought:
         after = next(edge.after for _, edge in edges if edge.instance == instance)
         return bool((self.graph.states([after]) == state).all())
 
-    def is_witness(self, instance: SkillInstance) -> bool:
-        """Whether running an instance now is worth it as what the model cannot explain."""
-        return self.worth.main_part(0, self.scene.number[instance]) == "witness"
+    def repeated(self, instance: SkillInstance) -> tuple[Lead, ...]:
+        """The earlier attempts for the sake of which running an instance now is worth it."""
+        part = self.worth.main_part(0, self.scene.number[instance])
+        return {"witness": self.causes, "repeat": self.frail}.get(part, ())
 
 
 class PlannedExplorer:
@@ -179,8 +184,8 @@ class PlannedExplorer:
             blocked=np.flatnonzero(failed).tolist(),
             reliability=self._memory.reliability(scene),
         )
-        causes = distinct_causes(situation.fit.inconsistencies)
-        worth = self._weigh(situation, lookahead, causes)
+        causes, frail = _causes(situation), _frail(situation)
+        worth = self._weigh(situation, lookahead)
         values = worth.total
         tried = [self._memory.was_tried(seen, here, instance) for instance in scene.instances]
         values[1:] *= _MISSED ** np.array([self._memory.missed[i] for i in scene.instances])
@@ -189,7 +194,7 @@ class PlannedExplorer:
         graph, space = self._graph_of(situation), situation.space
         left, touched = situation.left, self._touched(situation)
         self._thought = Thought(
-            scene, lookahead, worth, values, causes, graph, space, left, touched
+            scene, lookahead, worth, values, causes, frail, graph, space, left, touched
         )
         return self._thought
 
@@ -294,7 +299,7 @@ class PlannedExplorer:
         numbers = [scene.number[instance] for instance in sequence]
         graph, roles = self._graph_of(situation), self._memory.roles
         way = roll_out(graph, situation.state, roles, scene, numbers)
-        worth = self._weigh(situation, way, distinct_causes(situation.fit.inconsistencies))
+        worth = self._weigh(situation, way)
         values: Values = worth.total[np.arange(len(numbers)), numbers]
         return values
 
@@ -306,9 +311,7 @@ class PlannedExplorer:
             self._graph = key, StateGraph(model, self._settings.weighed)
         return self._graph[1]
 
-    def _weigh(
-        self, situation: Situation, lookahead: Lookahead, causes: tuple[Inconsistency, ...]
-    ) -> Worth:
+    def _weigh(self, situation: Situation, lookahead: Lookahead) -> Worth:
         fit, scene = situation.fit, self._memory.scene(situation.scene)
         doubt = self._memory.surprises.doubt
         expected = self._beliefs.expect(
@@ -322,7 +325,8 @@ class PlannedExplorer:
             self._memory,
             unproven=unproven,
             silent=_silent(fit),
-            causes=causes,
+            causes=_causes(situation),
+            frail=_frail(situation),
             weights=self._weights,
         )
 
@@ -332,8 +336,10 @@ class PlannedExplorer:
             if self._noted == 0:
                 self._memory.start(scene)
             thought, instance = self._thought, transition.instance
-            if thought is not None and thought.is_witness(instance):
-                self._memory.pursue(thought.causes, thought.scene, instance)
+            repeated = thought.repeated(instance) if thought is not None else ()
+            if thought is not None and repeated:
+                attempts = ((lead.skill, lead.number) for lead in repeated)
+                self._memory.pursue(attempts, thought.scene, instance)
             predicted = None if thought is None else thought.is_predicted(instance)
             state = b"" if thought is None else thought.state
             if thought is not None:
@@ -371,3 +377,33 @@ class PlannedExplorer:
 def _silent(fit: Fit) -> frozenset[str]:
     """The skills of which no success seems to change anything."""
     return frozenset(skill for skill, of in fit.skills.items() if of.unnoticed is not None)
+
+
+def _causes(situation: Situation) -> tuple[Lead, ...]:
+    """What the model cannot explain, one transition for each cause."""
+    skills, found = situation.fit.skills, dict.fromkeys(_frail_causes(situation))
+    for one in distinct_causes(situation.fit.inconsistencies):
+        if one.kind is not InconsistencyKind.EFFECT or not skills[one.skill].frail:
+            found[Lead(one.skill, one.culprit)] = None
+    return tuple(found)
+
+
+def _frail_causes(situation: Situation) -> Iterator[Lead]:
+    """Successes that seem to change no more than failures do, where labels may be wrong.
+
+    Further failures would tell nothing of what a success changes.
+    """
+    frail = set(_frail(situation))
+    for one in distinct_causes(situation.fit.inconsistencies):
+        if one.kind is InconsistencyKind.EFFECT and Lead(one.skill, one.first) in frail:
+            yield Lead(one.skill, one.first)
+
+
+def _frail(situation: Situation) -> tuple[Lead, ...]:
+    """The successes that rest on doubtful labels, and were not seen again in this episode.
+
+    What they made may keep them from succeeding again.
+    """
+    seen = {transition.instance.skill for transition in situation.done if transition.success}
+    skills = situation.fit.skills.items()
+    return tuple(Lead(s, number) for s, of in skills if s not in seen for number in of.frail)

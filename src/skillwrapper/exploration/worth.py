@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,6 @@ from skillwrapper.exploration.beliefs import Expectations
 from skillwrapper.exploration.lookahead import Lookahead
 from skillwrapper.exploration.memory import Memory
 from skillwrapper.exploration.roles import SceneRoles
-from skillwrapper.learning.inconsistencies import Inconsistency
 
 Values = NDArray[np.float64]
 
@@ -44,6 +44,7 @@ class Weights:
         covered_failing: the same where it is not.
         witness: an attempt like one that the model cannot explain.
         other_witness: an attempt at the same skill, as a share of that.
+        repeated: an attempt like a success that rests on doubtful labels.
         fading: what is left of it after every time that it was gone after.
         slow_fading: the same after every time that any cause of the skill was.
     """
@@ -63,8 +64,22 @@ class Weights:
     covered_failing: float = 0.08
     witness: float = 0.8
     other_witness: float = 0.15
+    repeated: float = 0.5
     fading: float = 0.75
     slow_fading: float = 0.9
+
+
+@dataclass(frozen=True)
+class Lead:
+    """An attempt that is worth making again.
+
+    Attributes:
+        skill: the skill.
+        number: of the transition.
+    """
+
+    skill: str
+    number: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +92,7 @@ class Worth:
         check: whether the model is right where it is sure.
         cover: combinations of skills that were not tried.
         witness: what the model cannot explain, seen again.
+        repeat: what only doubtful labels tell of, seen again.
     """
 
     test: Values
@@ -84,11 +100,12 @@ class Worth:
     check: Values
     cover: Values
     witness: Values
+    repeat: Values
 
     @property
     def total(self) -> Values:
         """All together."""
-        return self.test + self.new + self.check + self.cover + self.witness
+        return self.test + self.new + self.check + self.cover + self.witness + self.repeat
 
     def main_part(self, node: int, instance: int) -> str:
         """What an attempt would be for most of all."""
@@ -110,7 +127,8 @@ def weigh(
     *,
     unproven: frozenset[str],
     silent: frozenset[str],
-    causes: Sequence[Inconsistency],
+    causes: Sequence[Lead],
+    frail: Sequence[Lead],
     weights: Weights,
 ) -> Worth:
     """Weigh every skill instance in every node.
@@ -122,7 +140,8 @@ def weigh(
         memory: earlier attempts.
         unproven: skills that never succeeded.
         silent: skills of which no success seems to change anything.
-        causes: what the model cannot explain, one inconsistency for each cause.
+        causes: what the model cannot explain, one transition for each cause.
+        frail: successes that rest on doubtful labels.
         weights: what counts how much.
     """
     of_node = lookahead.state
@@ -161,12 +180,15 @@ def weigh(
         unseen = memory.new_signatures(memory.seen[instance.skill], lookahead.roles, places)
         each = np.where(sure[:, number], weights.covered, weights.covered_failing)
         cover[:, number] = each * unseen
+    possible = sure | (success > 0.02)
+    again = partial(_again, lookahead, possible, scene, memory, weights)
     return Worth(
         test=np.where(sure, 0.0, entropy(success) * np.sqrt(success)),
         new=new,
         check=np.where(sure, working * mix_done, 0.0),
         cover=cover,
-        witness=_witnesses(lookahead, sure | (success > 0.02), scene, memory, causes, weights),
+        witness=weights.witness * again(causes),
+        repeat=weights.repeated * again(frail),
     )
 
 
@@ -186,22 +208,22 @@ def _relative(expected: Expectations, scene: SceneRoles, unproven: frozenset[str
     return found
 
 
-def _witnesses(
+def _again(
     lookahead: Lookahead,
     possible: NDArray[np.bool_],
     scene: SceneRoles,
     memory: Memory,
-    causes: Sequence[Inconsistency],
     weights: Weights,
+    leads: Sequence[Lead],
 ) -> Values:
-    """Attempts like those that the model cannot explain, the less the more often repeated."""
+    """Attempts like some earlier ones, up to 1; the less the more often they were repeated."""
     found = np.zeros(possible.shape)
-    for cause in causes:
-        signature = memory.signatures[cause.culprit]
-        worth = weights.witness * weights.fading ** memory.pursued[cause.skill, signature]
-        worth *= weights.slow_fading ** memory.pursued_in_all(cause.skill)
+    for lead in leads:
+        signature = memory.signatures[lead.number]
+        worth = weights.fading ** memory.pursued[lead.skill, signature]
+        worth *= weights.slow_fading ** memory.pursued_in_all(lead.skill)
         for number, instance in enumerate(scene.instances):
-            if instance.skill == cause.skill:
+            if instance.skill == lead.skill:
                 roles = lookahead.roles[:, scene.places[number]]
                 same = (roles == np.array(signature, dtype=np.intp)).all(axis=1)
                 value = np.where(same, worth, weights.other_witness * worth)

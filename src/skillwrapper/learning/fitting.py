@@ -35,6 +35,8 @@ class SkillFit:
         predictions: what they say of the skill's own transitions.
         left_out: the clusters of which no operator was learned; none of them is accounted for.
         price: how many transitions an operator has to account for to be worth having.
+        frail: numbers of successes that are worth seeing again, as wrong labels of a single one
+            would lead to other operators; empty where labels are right (D24).
     """
 
     skill: str
@@ -42,6 +44,7 @@ class SkillFit:
     predictions: tuple[TablePrediction, ...]
     left_out: tuple[Cluster, ...] = ()
     price: float = 0.0
+    frail: tuple[int, ...] = ()
 
     @cached_property
     def witnesses(self) -> frozenset[Witness]:

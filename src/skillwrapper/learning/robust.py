@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.fitting import Fit, SkillFit
+from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.learning.operators import LearnedOperator
 from skillwrapper.learning.predictions import predict
 from skillwrapper.learning.settings import LearnerSettings
@@ -41,7 +43,8 @@ class RobustLearner(FaithfulLearner):
         doubts = _Doubts(transitions)
 
         def learn_skill(skill: Skill) -> SkillFit:
-            return self._without_doubtful(fit.skill(skill.name), doubts)
+            leaner = self._without_doubtful(fit.skill(skill.name), doubts)
+            return replace(leaner, frail=tuple(sorted(doubts.frail(leaner))))
 
         return Fit(fit.domain, fit.predicates, learn_skill)
 
@@ -100,6 +103,33 @@ class _Doubts:
             right = float(self._all(place)[np.ix_(states, about)].prod())
             return -math.log1p(-right) if right < 1 else math.inf
         return math.inf
+
+    def frail(self, fit: SkillFit) -> set[int]:
+        """Successes that are worth seeing again.
+
+        These are the ones that alone, or in the same picture, show what an operator says; and those
+        that seem to do no more than a failure, or hang on a label that is in doubt.
+        """
+        found = {n for learned in fit.operators for n in self._alone(learned.cluster.ids)}
+        found |= {one.first for one in fit.inconsistencies if one.kind is InconsistencyKind.EFFECT}
+        for prediction in fit.predictions:
+            table = prediction.table
+            found |= {int(number) for number in table.ids[table.success & table.hanging]}
+        return found
+
+    def _alone(self, numbers: Sequence[int]) -> Sequence[int]:
+        """The transitions if all begin in one picture, else none."""
+        pictures = {self._picture[number] for number in numbers}
+        return numbers[:1] if len(pictures) == 1 else ()
+
+    @cached_property
+    def _picture(self) -> dict[int, tuple[int, int]]:
+        """Scene and picture in which every transition begins."""
+        return {
+            int(number): (place, int(before))
+            for place, scene in enumerate(self._scenes)
+            for number, before in zip(scene.executions.ids, scene.executions.before, strict=True)
+        }
 
     def _all(self, place: int) -> Confidence:
         """The confidence (states, atoms) of all labels of a scene."""
