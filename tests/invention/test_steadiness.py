@@ -80,8 +80,8 @@ def judged_in_doubt(*starts: str) -> tuple[Predicate, ...]:
 
 
 def test_a_predicate_that_is_often_misread_is_not_unsteady() -> None:
-    """Whether one cup is full is misread in a third of the pictures; left and right it is not."""
-    starts = [f"{'full(a)' if n % 3 == 0 else ''} left(a) #{n}" for n in range(9)]
+    """Whether one cup is full is misread in nearly half of the pictures; what is left is not."""
+    starts = [f"{'full(a)' if n % 2 else ''} left(a) #{n}" for n in range(11)]
     assert judged_in_doubt(*starts) == ()
 
 

@@ -30,9 +30,10 @@ _SKILLS = 2
 """What failures change is a matter of their skill; not what changes around failures of so many."""
 _RARELY = 0.01
 """The share of failures that change what has nothing to do with them."""
-_OF_OTHERS = 0.025
-"""The share of readings at large that is expected to be wrong. What is seldom misread is taken into
-use first, and tells little of other predicates."""
+_OF_OTHERS = 0.05
+"""The share of its readings that is expected to be wrong of a predicate at large. What is seldom
+misread is taken into use first, and tells little of others: of the eight predicates that GPT-5 was
+measured on, the shares are 0 to .2, and .046 in the mean, though .025 of all readings are wrong."""
 
 
 class Steadiness:
