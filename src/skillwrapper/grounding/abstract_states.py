@@ -47,9 +47,11 @@ def different_rows(rows: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.int
     """
     flat = np.ascontiguousarray(rows.reshape(len(rows), int(np.prod(rows.shape[1:]))))
     flat = np.packbits(flat, axis=1) if flat.dtype == np.bool_ else flat
-    text, width = flat.tobytes(), flat.shape[1] * flat.itemsize
+    width = flat.shape[1] * flat.itemsize
+    keys: list[Any] = [b""] * len(flat)
+    if width:
+        keys = flat.view(np.dtype((np.void, width))).ravel().tolist()
     number: dict[bytes, int] = {}
-    keys = (text[row * width : (row + 1) * width] for row in range(len(flat)))
     place = np.array([number.setdefault(key, len(number)) for key in keys], dtype=np.intp)
     first = np.full(len(number), len(flat), dtype=np.intp)
     np.minimum.at(first, place, np.arange(len(flat)))
