@@ -48,7 +48,7 @@ def alone(notebook: Notebook, *states: str) -> list[float]:
 def test_what_failed_only_where_no_other_skill_works_is_new_where_one_does() -> None:
     assert alone(yard(lifted=False), FREE_ON_LOW, FULL_ON_LOW, FREE_ON_SHELF) == [0, 0, 0]
     new, full, same = alone(yard(lifted=True), FREE_ON_LOW, FULL_ON_LOW, FREE_ON_SHELF)
-    assert new >= 0.5
+    assert new >= 0.25
     assert full == same == 0
 
 

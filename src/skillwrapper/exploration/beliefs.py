@@ -21,6 +21,9 @@ from skillwrapper.learning.version_space import VersionSpace, version_spaces
 from skillwrapper.transitions.tables import SkillTable
 from skillwrapper.world.skills import SkillInstance
 
+_AMONG_ALIKE = 0.5
+"""What is new among attempts that are alike counts so much beside what is new altogether."""
+
 
 @dataclass(frozen=True, eq=False)
 class Expectations:
@@ -129,7 +132,7 @@ class SkillBeliefs:
         failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
         members = self._analogies.members(space, attempts)
         alike = newness(seen, members, self._failures, self._failed_members)
-        alone = np.maximum(failed.alone, alike)
+        alone = np.maximum(failed.alone, _AMONG_ALIKE * alike)
         promise = self._promise(space, seen, attempts)
         untried = self._untried(seen, attempts, instances)
         unlike, elsewhere = (
