@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from skillwrapper.exploration.novelty import Features
-from skillwrapper.grounding import TRUE, AtomSpace
-from skillwrapper.grounding.atom_index import ANY, LiftedAtom, taken_objects
+from skillwrapper.exploration.novelty import Features, look_up
+from skillwrapper.grounding import AtomSpace
+from skillwrapper.grounding.atom_index import ANY, LiftedAtom
 from skillwrapper.grounding.bindings import Attempts
 from skillwrapper.learning.version_space import VersionSpace
 from skillwrapper.symbols import Absence, Literal
@@ -50,7 +50,6 @@ class Analogies:
     """
 
     def __init__(self, spaces: Sequence[VersionSpace], arity: int) -> None:
-        self._arity = arity
         found = dict.fromkeys(f for space in spaces for f in _families(space, arity))
         self._families = tuple(found)
         atoms = dict.fromkeys(a for f in self._families for a in sorted(f.needed | f.barred))
@@ -62,20 +61,11 @@ class Analogies:
 
     def members(self, space: AtomSpace, attempts: Attempts) -> NDArray[np.bool_]:
         """Which attempts are of which family (attempts, families)."""
-        holds = self._hold(space, attempts).astype(np.float32)
+        plain, related = look_up(space, attempts, self._closed, self._open)
+        holds = np.hstack([plain, related.any(axis=2)]).astype(np.float32)
         amiss = (1 - holds) @ self._needed.T + holds @ self._barred.T
         members: NDArray[np.bool_] = amiss == 0
         return members
-
-    def _hold(self, space: AtomSpace, attempts: Attempts) -> NDArray[np.bool_]:
-        index, arguments, which = space.index, attempts.arguments, attempts.which
-        closed = index.columns(index.patterns(self._closed, self._arity), arguments)
-        opened = index.open_columns(index.patterns(self._open, self._arity), arguments)
-        others = ~taken_objects(arguments, len(space.objects))
-        opened = np.where(others[:, np.newaxis, :], opened, -1)
-        plain = attempts.states.at(attempts.rows, closed[which]) == TRUE
-        related = attempts.states.at(attempts.rows, opened[which]) == TRUE
-        return np.hstack([plain, related.any(axis=2)])
 
     def _matrix(
         self, order: Sequence[LiftedAtom], part: Callable[[Family], frozenset[LiftedAtom]]

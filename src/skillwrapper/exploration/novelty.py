@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,21 +27,45 @@ def see_features(space: AtomSpace, attempts: Attempts, types: Sequence[str]) -> 
         attempts: attempts at one skill.
         types: all types that tell objects apart.
     """
-    index, arguments = space.index, attempts.arguments
+    arguments, which = attempts.arguments, attempts.which
     arity = arguments.shape[1]
-    of_type = np.array([index.of_types([name]) for name in types], dtype=bool)
+    of_type = np.array([space.index.of_types([name]) for name in types], dtype=bool)
     of_type = of_type.reshape(len(types), len(space.objects))
-    plain = index.columns(index.patterns(_plain(space.predicates, arity), arity), arguments)
-    opened = index.open_columns(index.patterns(_open(space.predicates, arity), arity), arguments)
-    others = ~taken_objects(arguments, len(space.objects))
-    opened = np.where(others[:, np.newaxis, :], opened, -1)
-    which = attempts.which
-    holds = attempts.states.at(attempts.rows, plain[which]) == TRUE
-    related = attempts.states.at(attempts.rows, opened[which]) == TRUE
+    plain, opened = _plain(space.predicates, arity), _open(space.predicates, arity)
+    holds, related = look_up(space, attempts, plain, opened)
     by_type = related.astype(np.float32) @ of_type.T.astype(np.float32) > 0
     seen = np.hstack([holds, by_type.reshape(len(holds), by_type.shape[1] * len(types))])
     own_types = of_type.T[arguments].reshape(len(arguments), arity * len(types))
     return np.hstack([seen, ~seen, own_types[which]])
+
+
+def look_up(
+    space: AtomSpace,
+    attempts: Attempts,
+    plain: Iterable[LiftedAtom],
+    opened: Iterable[LiftedAtom],
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """What holds of the arguments, and of each other object with them.
+
+    Args:
+        space: the ground atoms.
+        attempts: attempts at one skill.
+        plain: atoms over the places of the arguments.
+        opened: atoms of which one term is ``ANY``.
+
+    Returns:
+        Whether each holds: (attempts, plain), and (attempts, opened, objects) with each object in
+        turn as the open term; no argument is one.
+    """
+    index, arguments, which = space.index, attempts.arguments, attempts.which
+    arity = arguments.shape[1]
+    closed = index.columns(index.patterns(plain, arity), arguments)
+    open_columns = index.open_columns(index.patterns(opened, arity), arguments)
+    others = ~taken_objects(arguments, len(space.objects))
+    open_columns = np.where(others[:, np.newaxis, :], open_columns, -1)
+    holds = attempts.states.at(attempts.rows, closed[which]) == TRUE
+    related = attempts.states.at(attempts.rows, open_columns[which]) == TRUE
+    return holds, related
 
 
 def _plain(predicates: Sequence[Predicate], arity: int) -> Iterator[LiftedAtom]:

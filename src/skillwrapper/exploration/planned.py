@@ -7,7 +7,7 @@ it takes. After every outcome all is thought over anew (docs/semantics.md D16).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -184,8 +184,9 @@ class PlannedExplorer:
             blocked=np.flatnonzero(failed).tolist(),
             reliability=self._memory.reliability(scene),
         )
-        causes, frail = _causes(situation), _frail(situation)
-        worth = self._weigh(situation, lookahead)
+        frail = _frail(situation)
+        causes = _causes(situation, frail)
+        worth = self._weigh(situation, lookahead, causes, frail)
         values = worth.total
         tried = [self._memory.was_tried(seen, here, instance) for instance in scene.instances]
         values[1:] *= _MISSED ** np.array([self._memory.missed[i] for i in scene.instances])
@@ -299,7 +300,8 @@ class PlannedExplorer:
         numbers = [scene.number[instance] for instance in sequence]
         graph, roles = self._graph_of(situation), self._memory.roles
         way = roll_out(graph, situation.state, roles, scene, numbers)
-        worth = self._weigh(situation, way)
+        frail = _frail(situation)
+        worth = self._weigh(situation, way, _causes(situation, frail), frail)
         values: Values = worth.total[np.arange(len(numbers)), numbers]
         return values
 
@@ -311,7 +313,13 @@ class PlannedExplorer:
             self._graph = key, StateGraph(model, self._settings.weighed)
         return self._graph[1]
 
-    def _weigh(self, situation: Situation, lookahead: Lookahead) -> Worth:
+    def _weigh(
+        self,
+        situation: Situation,
+        lookahead: Lookahead,
+        causes: tuple[Lead, ...],
+        frail: tuple[Lead, ...],
+    ) -> Worth:
         fit, scene = situation.fit, self._memory.scene(situation.scene)
         doubt = self._memory.surprises.doubt
         expected = self._beliefs.expect(
@@ -325,8 +333,8 @@ class PlannedExplorer:
             self._memory,
             unproven=unproven,
             silent=_silent(fit),
-            causes=_causes(situation),
-            frail=_frail(situation),
+            causes=causes,
+            frail=frail,
             weights=self._weights,
         )
 
@@ -379,24 +387,20 @@ def _silent(fit: Fit) -> frozenset[str]:
     return frozenset(skill for skill, of in fit.skills.items() if of.unnoticed is not None)
 
 
-def _causes(situation: Situation) -> tuple[Lead, ...]:
-    """What the model cannot explain, one transition for each cause."""
-    skills, found = situation.fit.skills, dict.fromkeys(_frail_causes(situation))
+def _causes(situation: Situation, frail: Sequence[Lead]) -> tuple[Lead, ...]:
+    """What the model cannot explain, one transition for each cause.
+
+    Of successes that seem to change no more than failures do, where labels may be wrong, these are
+    the successes: further failures would tell nothing of what a success changes.
+    """
+    skills = situation.fit.skills
+    found: dict[Lead, None] = {}
     for one in distinct_causes(situation.fit.inconsistencies):
         if one.kind is not InconsistencyKind.EFFECT or not skills[one.skill].frail:
             found[Lead(one.skill, one.culprit)] = None
+        elif (lead := Lead(one.skill, one.first)) in frail:
+            found[lead] = None
     return tuple(found)
-
-
-def _frail_causes(situation: Situation) -> Iterator[Lead]:
-    """Successes that seem to change no more than failures do, where labels may be wrong.
-
-    Further failures would tell nothing of what a success changes.
-    """
-    frail = set(_frail(situation))
-    for one in distinct_causes(situation.fit.inconsistencies):
-        if one.kind is InconsistencyKind.EFFECT and Lead(one.skill, one.first) in frail:
-            yield Lead(one.skill, one.first)
 
 
 def _frail(situation: Situation) -> tuple[Lead, ...]:
