@@ -177,6 +177,29 @@ def test_what_is_in_a_machine_is_changed_and_stays_in_it() -> None:
     assert fit.inconsistencies == ()
 
 
+def test_what_is_so_already_tells_nothing_of_what_would_come_about() -> None:
+    """A wet shirt stays wet in the washer: that does not mean that only stained ones get wet."""
+    domain = make_domain(
+        types={"washer": (), "shirt": ()},
+        objects={"w": "washer", "a": "shirt", "b": "shirt"},
+        skills={"Wash": "washer"},
+    )
+    inside, clean = Predicate("inside", ("shirt", "washer")), Predicate("clean", ("shirt",))
+    wet = Predicate("wet", ("shirt",))
+    notebook = Notebook(domain, inside, clean, wet)
+    notebook.success("inside(a, w)", "Wash(w)", "inside(a, w) clean(a) wet(a)")
+    notebook.success(
+        "inside(a, w) inside(b, w) clean(a) wet(a)", "Wash(w)",
+        "inside(a, w) inside(b, w) clean(a) clean(b) wet(a) wet(b)",
+    )  # fmt: skip
+    fit = notebook.fit(inside, clean, wet)
+    (learned,) = fit.operators
+    tied = (Literal(atom("inside(?each, ?washer_0)")),)
+    assert {e.condition for e in learned.operator.conditional_effects} == {tied}
+    assert fit.inconsistencies == ()
+    assert not certify(fit).violations
+
+
 def test_a_relation_that_reaches_on_to_what_is_below() -> None:
     """Nothing or one thing below is enough to see it: two operators would say the same."""
     stacks = make_domain(

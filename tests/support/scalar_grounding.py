@@ -68,6 +68,8 @@ class ScalarOperator:
             meets = (states[:, effect.required_true] == TRUE).all(axis=1)
             meets &= (states[:, effect.required_false] == FALSE).all(axis=1)
             effects[meets, effect.column] = 1 if effect.becomes == TRUE else -1
+        effects[(effects > 0) & (states == TRUE)] = 0
+        effects[(effects < 0) & (states == FALSE)] = 0
         effects[:, self.deleted] = -1
         effects[:, self.added] = 1
         return effects

@@ -145,11 +145,15 @@ class IndexedOperator:
         """The effect of every binding in its state (bindings, atoms): 1 added, -1 deleted, or 0.
 
         Whether a binding is applicable is not asked. What is added wins over what is deleted, and
-        both over what changes on a condition; a condition that is not known to hold does not.
+        both over what changes on a condition; a condition that is not known to hold does not. On a
+        condition nothing changes that is so already.
         """
         effects = np.zeros((len(objects), states.labels.shape[1]), dtype=np.int8)
         for effect in sorted(self.operator.conditional_effects):
             self._add_conditional(effects, effect, states, rows, objects)
+        if self.operator.conditional_effects:
+            now = states.labels[rows]
+            effects[((effects > 0) & (now == TRUE)) | ((effects < 0) & (now == FALSE))] = 0
         added, deleted = self.changed_columns(objects)
         np.put_along_axis(effects, deleted, -1, axis=1)
         np.put_along_axis(effects, added, 1, axis=1)

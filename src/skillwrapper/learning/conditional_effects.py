@@ -192,8 +192,8 @@ class _Others:
     def cases(self, place: int, sign: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Objects that could have made a change, and those that did: (rows, objects) each.
 
-        Of objects that changed, all labels are known: else the group would have founded no
-        cluster.
+        Of what was so before nobody could see it come about. Of objects that changed, all labels
+        are known: else the group would have founded no cluster.
         """
         columns = self.columns[:, place]
         first = self.bundle.rows[self.bundle.first]
@@ -201,7 +201,8 @@ class _Others:
         did = np.zeros_like(could)
         groups, _ = np.nonzero(could)  # a scene may have no column at all
         did[could] = self.bundle.table.change[first[groups], columns[could]] == sign
-        return could[self.bundle.group], did[self.bundle.group]
+        was_so = self.held[:, :, place] == (sign > 0)
+        return could[self.bundle.group] & ~was_so, did[self.bundle.group]
 
     def types(self, marked: NDArray[np.bool_]) -> list[frozenset[str]]:
         """The types of those objects of the scene that are marked (rows, objects) in any row."""
