@@ -11,6 +11,7 @@ from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.fitter import Fitter
 from skillwrapper.invention.inventor import Inventor
 from skillwrapper.invention.settings import LearningSettings
+from skillwrapper.invention.unnoticed import look_alikes
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.faithful import FaithfulLearner
 from skillwrapper.learning.inconsistencies import Inconsistency, distinct_causes
@@ -648,7 +649,50 @@ def test_what_else_changed_is_rather_asked_where_other_things_hold() -> None:
     assert asked[1] == 2
 
 
-def test_what_told_nothing_new_is_read_together_when_twice_as_much_was_executed() -> None:
+def test_of_a_telling_skill_it_is_also_asked_what_changed_where_nothing_seems_to() -> None:
+    """What is baked twice is burnt."""
+    notebook = Notebook(KITCHEN)
+    notebook.success("empty(r)", "Take(r, a)", "held(a)")
+    notebook.success("held(a)", "Take(r, a)", "held(a) #2")
+    study = Study(notebook, active=[EMPTY, HELD], unnoticed_everywhere=True)
+    study.inventor.invent()
+    assert {question[0].culprit for question in study.proposer.asked} == {0, 1}
+
+
+NEXT = Predicate("next", ("robot", "item"))
+
+
+def test_of_a_silent_skill_it_is_asked_at_once_where_other_things_hold_nearby() -> None:
+    """Also of what the arguments stand in a relation with, but once in an iteration."""
+    notebook = Notebook(KITCHEN)
+    for number in range(9):
+        notebook.success(f"next(r, a) #{number}", "Wave(r)", f"next(r, a) held(b) #{number}")
+    study = Study(notebook, active=[NEXT, ROUND], attempts=1)
+    study.inventor.invent()
+    notebook.success("next(r, a) #9", "Wave(r)", "next(r, a) held(b) #9")
+    study.inventor.invent()
+    assert len(study.proposer.asked) == 1
+    for item in "ab":
+        there = f"next(r, a) round({item})"
+        notebook.success(there, "Wave(r)", f"{there} held(b)")
+    study.inventor.invent()
+    assert [question[0].culprit for question in study.proposer.asked][1:] == [10]
+
+
+def test_pictures_before_which_other_things_were_done_are_looked_at_first() -> None:
+    notebook = Notebook(KITCHEN)
+    notebook.success("empty(r) #0", "Wave(r)", "empty(r) #1")
+    notebook.success("empty(r) #1", "Take(r, a)", "empty(r) #2")
+    for number in range(3, 9):
+        notebook.success(f"empty(r) #{number}", "Wave(r)", f"round(a) #{number}")
+    labeller = Labeller(notebook.recorded, notebook)
+    asked = Inconsistency(InconsistencyKind.UNNOTICED, "Wave", 0, None, 0, identity=())  # type: ignore[arg-type]
+    _, pictures = look_alikes(labeller, [EMPTY], asked)
+    assert picture("empty(r) #2") in pictures
+    assert picture("empty(r) #8") not in pictures
+
+
+def test_what_told_nothing_new_is_read_together_when_more_was_executed() -> None:
     notebook = Notebook(KITCHEN)
     notebook.success("empty(r) #0", "Wave(r)", "held(a) shiny(b) #1")
     notebook.failure("held(a) shiny(b) #2", "Wave(r)")

@@ -10,14 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from skillwrapper.grounding import UNKNOWN, AtomSpace
+from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
 from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
 from skillwrapper.perception.labelling import Labeller
-from skillwrapper.symbols import Predicate
+from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.transitions.tables import Group
@@ -25,12 +24,12 @@ from skillwrapper.world.observation import Observation
 from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
-_GROWTH, _LATER, _AGAIN = 1.5, 2.0, 4.0
+_WAIT, _GROWTH, _LATER, _AGAIN = 4 / 3, 1.5, 2.0, 4.0
 _ALIKE = 4
 """So many pictures that look alike to the vocabulary are compared with one another."""
 
-_Context = tuple[str, LiftedChange, SkillInstance, bytes]
-"""A success by its skill, its change, and what held of its arguments before."""
+_Context = tuple[str, LiftedChange, SkillInstance, frozenset[Atom]]
+"""A success by its skill, its change, its instance, and what held nearby before."""
 
 
 class _Success(NamedTuple):
@@ -62,11 +61,12 @@ class UnnoticedChanges:
 
     A skill of which all successes seem to change nothing is asked about again after "nothing", or
     what is of no use, some times in a row, and then as soon as half as much again was executed: in
-    another state and with other objects in view, which may be in its arguments or on them. Of other
-    skills, it is asked what else has changed, of any object, for every change that they are known
-    to make, until candidates were of no use some times: a machine that comes to a halt may have
-    been empty. When twice as much was executed, it is asked again of a success around which other
-    things held; of one like those that were asked about, when four times as much was.
+    another state and with other objects in view, which may be in its arguments or on them. Before
+    that, once in an iteration, of a success around which other things held. Of other skills, it is
+    asked what else has changed, of any object, for every change that they are known to make, also
+    where that is none, until candidates were of no use some times: a machine that comes to a halt
+    may have been empty. When twice as much was executed, it is asked again of a success around
+    which other things held; of one like those that were asked about, when four times as much was.
 
     Args:
         most: questions in a row about a skill that seems to change nothing; questions in vain about
@@ -80,6 +80,7 @@ class UnnoticedChanges:
         self._next: dict[str, float] = {}
         self._shown: Counter[tuple[int, bool]] = Counter()
         self._last: dict[tuple[str, LiftedChange], int] = {}
+        self._asked: Counter[str] = Counter()
         self._times: Counter[tuple[str, LiftedChange]] = Counter()
         self._contexts: set[_Context] = set()
         self._context_of: dict[int, _Context] = {}
@@ -97,17 +98,18 @@ class UnnoticedChanges:
         others = [s for s in fit.each() if s not in silent] if self._everywhere else []
         for of_skill in (*silent, *others):
             name = of_skill.skill
-            if executions >= self._next.get(name, 0):
-                is_wide = of_skill in silent and self._in_vain[name, True] > 0
-                left = self._open(of_skill, news, is_wide)
-                if of_skill not in silent:
-                    if self._in_vain[name, False] >= self._most:
-                        continue
-                    left = (one for one in left if executions >= self._due(name, one))
-                found = max(left, default=None)
-                if found is not None:
-                    self._context_of[found.number] = found.context
-                    return _question(name, found, wide=is_wide or of_skill not in silent)
+            is_wide = of_skill in silent and self._in_vain[name, True] > 0
+            left = self._open(of_skill, news, is_wide)
+            if of_skill not in silent:
+                may_ask = self._in_vain[name, False] < self._most
+                left = (one for one in left if may_ask and executions >= self._due(name, one))
+            elif executions < self._next.get(name, 0):
+                may_ask = executions > self._asked[name]
+                left = (one for one in left if may_ask and one.is_new)
+            found = max(left, default=None)
+            if found is not None:
+                self._context_of[found.number] = found.context
+                return _question(name, found, wide=is_wide or of_skill not in silent)
         return None
 
     def _due(self, skill: str, success: _Success) -> float:
@@ -132,10 +134,11 @@ class UnnoticedChanges:
         if silent and in_vain and self._in_vain[asked.skill, silent] % self._most == 0:
             self._next[asked.skill] = _GROWTH * executions
         (state,), change = asked.identity[2:]
+        self._asked[asked.skill] = executions
+        self._times[asked.skill, change] += 1
+        self._contexts.add(self._context_of[asked.culprit])
         if not silent:
             self._last[asked.skill, change] = executions
-            self._times[asked.skill, change] += 1
-            self._contexts.add(self._context_of[asked.culprit])
         elif nothing:
             self._settled.add((asked.skill, state, asked.wide))
 
@@ -151,14 +154,13 @@ class UnnoticedChanges:
         for prediction in of_skill.predictions:
             table = prediction.table
             for group in table.successes:
-                change, near = group.lifting.change, _near(group)
+                change, near = group.lifting.change, _Nearness(group)
                 may_be_first = self._times[name, change] % 2 == 0
                 for row in group.rows[~table.unchanged[group.rows] & ~table.hanging[group.rows]]:
                     number, before = int(table.ids[row]), table.before[row]
                     state = before.tobytes() if silent else b""
-                    changes = silent or table.change[row].any()
-                    if changes and (name, state, wide) not in self._settled:
-                        context = name, change, group.instance, before[near].tobytes()
+                    if (name, state, wide) not in self._settled:
+                        context = name, change, group.instance, near.seen(before)
                         yield _Success(
                             context not in self._contexts,
                             may_be_first and news[number].is_first,
@@ -202,11 +204,28 @@ def _news(recorded: RecordedTransitions) -> dict[int, _News]:
     return news
 
 
-def _near(group: Group) -> NDArray[np.bool_]:
-    """The atoms (atoms,) that say something of an argument."""
-    arguments = {*group.instance.arguments}
-    own = [not arguments.isdisjoint(atom.terms) for atom in group.table.space.atoms]
-    return np.array(own, dtype=bool)
+class _Nearness:
+    """What is near the arguments of a skill instance: what stands in a relation with them.
+
+    Args:
+        group: transitions of the instance.
+    """
+
+    def __init__(self, group: Group) -> None:
+        self._space = space = group.table.space
+        arguments = {*group.instance.arguments}
+        place = {one.name: number for number, one in enumerate(space.objects)}
+        self._about = np.zeros((len(space.atoms), len(space.objects)), dtype=bool)
+        for number, atom in enumerate(space.atoms):
+            self._about[number, [place[name] for name in atom.terms]] = True
+        self._own = self._about[:, [place[name] for name in arguments]].any(axis=1)
+
+    def seen(self, before: Labels) -> frozenset[Atom]:
+        """What holds of the arguments, and of what they stand in a relation with (atoms,)."""
+        holds = before == TRUE
+        near = self._about[self._own & holds].any(axis=0)
+        close = self._own | self._about[:, near].any(axis=1)
+        return frozenset(self._space.atoms[n] for n in np.flatnonzero(close & holds))
 
 
 def _question(skill: str, success: _Success, *, wide: bool) -> Inconsistency:
@@ -225,15 +244,15 @@ def _question(skill: str, success: _Success, *, wide: bool) -> Inconsistency:
 class Shelf:
     """Candidates for unnoticed changes that tell no pictures apart which look alike so far.
 
-    Each is looked at again when twice as much was executed.
+    Each is looked at again when a third more was executed.
     """
 
     def __init__(self) -> None:
-        self._kept: dict[Predicate, tuple[Inconsistency, int]] = {}
+        self._kept: dict[Predicate, tuple[Inconsistency, float]] = {}
 
     def put(self, predicate: Predicate, asked: Inconsistency, executions: int) -> None:
         """Keep a candidate for later."""
-        self._kept[predicate] = asked, 2 * executions
+        self._kept[predicate] = asked, _WAIT * executions
 
     def take(self, executions: int) -> list[tuple[Predicate, Inconsistency]]:
         """Those for which it is time; they are kept no more."""
@@ -278,13 +297,33 @@ def tells_more(
 def _groups(
     labeller: Labeller, vocabulary: Sequence[Predicate], asked: Inconsistency
 ) -> tuple[Scene, list[list[Observation]]]:
-    """The latest pictures that look like the one before the success, and like the one after it."""
+    """Pictures that look like the one before the success, and like the one after it.
+
+    Those first before which the most other things were done in their episodes.
+    """
     record = labeller.recorded.records[asked.culprit]
     observations = labeller.recorded.observations(record.scene)
     states = labeller.values(record.scene, vocabulary)
+    deeds = _deeds(labeller.recorded)
     groups = []
     for place in dict.fromkeys((record.before, record.after)):
-        same = np.flatnonzero((states == states[place]).all(axis=1))
-        nearest = [n for n in same.tolist() if n != place][-_ALIKE:]
-        groups.append([observations[n] for n in (place, *nearest)])
+        same = np.flatnonzero((states == states[place]).all(axis=1)).tolist()
+        own = deeds.get(observations[place].key, frozenset())
+        unlike = sorted(
+            (n for n in same if n != place),
+            key=lambda n: len(own ^ deeds.get(observations[n].key, frozenset())),
+            reverse=True,
+        )[:_ALIKE]
+        groups.append([observations[n] for n in (place, *unlike)])
     return record.scene, groups
+
+
+def _deeds(recorded: RecordedTransitions) -> dict[str, frozenset[SkillInstance]]:
+    """For every picture, by its key, what had succeeded in the episode by then."""
+    found: dict[str, frozenset[SkillInstance]] = {}
+    for record in recorded.records:
+        transition = record.transition
+        before = found.setdefault(transition.before.key, frozenset())
+        done = before | {transition.instance} if transition.success else before
+        found.setdefault(transition.after.key, done)
+    return found
