@@ -57,6 +57,7 @@ def test_content_in_every_form(content: object) -> None:
         ({"content": None, "refusal": "I cannot."}, "stop"),
         ({"content": [{"type": "refusal", "refusal": "I cannot."}]}, "stop"),
         ({"content": "I cannot."}, "SAFETY"),
+        ({"content": "I cannot."}, "FINISH_REASON_SAFETY"),
         ({"content": "I cannot."}, "refusal"),
         ({"content": "I cannot."}, "content_filtered"),
         ({"content": "I cannot.", "refusal": ""}, "content-filter"),
@@ -66,9 +67,33 @@ def test_refusals(message: dict[str, Any], reason: str) -> None:
     assert read(message, reason).refusal == "I cannot."
 
 
-@pytest.mark.parametrize("reason", ["length", "MAX_TOKENS", "max_new_tokens", "incomplete"])
+@pytest.mark.parametrize(
+    "reason",
+    [
+        "length", "MAX_TOKENS", "max_new_tokens", "incomplete", "FINISH_REASON_MAX_TOKENS",
+        "token limit", "output_limit", "truncated", "max_tokens_reached", "stop_length",
+        "model_context_window_exceeded", "context-length-exceeded",
+    ],
+)  # fmt: skip
 def test_what_is_cut_off_is_marked(reason: str) -> None:
     assert read({"content": "a: true"}, reason).cut_off
+    assert _ended(finish_reason=None, stop_reason=reason).cut_off
+    assert _ended(finish_reason="stop", native_finish_reason=reason).cut_off
+    assert _ended(finish_details={"type": reason}).cut_off
+    assert _ended(done_reason=reason).cut_off
+
+
+@pytest.mark.parametrize(
+    "reason", ["stop", "eos", "STOP", "end_turn", "COMPLETE", "tool_calls", ""]
+)
+def test_what_came_to_its_end_is_whole(reason: str) -> None:
+    whole = _ended(finish_reason=reason, stop_reason=107, finish_details=None)
+    assert (whole.text, whole.cut_off, whole.refusal) == ("a: true", False, None)
+
+
+def _ended(**reasons: Any) -> Completion:
+    choice = {"message": {"content": "a: true"}, **reasons}
+    return read_completion(json.dumps({"choices": [choice]}).encode())
 
 
 @pytest.mark.parametrize("reason", ["error", "abort", "network_error", "cancelled", "repetition"])

@@ -10,12 +10,12 @@ from typing import Any
 
 from skillwrapper.vlm.streamed_replies import BrokenStreamError, assembled, is_stream
 
-_CUT_OFF = frozenset(
-    {"length", "max_tokens", "max_output_tokens", "model_length", "max_length", "max_new_tokens",
-     "token_limit", "incomplete", "model_context_window_exceeded", "context_length_exceeded"}
-)  # fmt: skip
+_CUT_OFF = re.compile(
+    r"length|max\w{0,20}tokens?|(?:token|output|context)\w{0,20}(?:limit|exceed)|truncat|incomplete"
+)
+"""Every server has a word of its own for it."""
 _REFUSED = frozenset(
-    {"content_filter", "content-filter", "content_filtered", "filtered", "safety", "refusal",
+    {"content_filter", "content_filtered", "filtered", "safety", "refusal",
      "refused", "prohibited_content", "blocklist", "recitation", "spii", "image_safety",
      "guardrail_intervened", "guardrails", "sensitive", "moderation", "content_policy",
      "policy_violation", "unsafe", "error_toxic"}
@@ -25,6 +25,7 @@ _BROKEN_OFF = frozenset(
      "insufficient_system_resource", "engine_overloaded", "repetition", "unknown_error"}
 )  # fmt: skip
 """The server could not end the answer: what there is of it is none."""
+_REASONS = ("finish_reason", "native_finish_reason", "stop_reason", "finish_details", "done_reason")
 _REASONING_FIELDS = ("reasoning_content", "reasoning", "thinking", "reasoning_text")
 _REASONING_PARTS = frozenset({"thinking", "reasoning", "redacted_thinking"})
 _A_WORD = re.compile(r"[\w-]*+")
@@ -102,7 +103,7 @@ def read_completion(body: bytes) -> Completion:
         raise NoCompletionError("a choice that is no object", is_broken=True)
     if choice.get("error"):
         raise _reported(choice["error"])
-    if _reason(choice).lower() in _BROKEN_OFF:
+    if not _BROKEN_OFF.isdisjoint(_reasons(choice)):
         raise NoCompletionError(f"an answer that broke off ({_reason(choice)})", is_broken=True)
     return _of_choice(choice, *tokens)
 
@@ -116,18 +117,30 @@ def _of_choice(choice: dict[str, Any], tokens_in: int | None, tokens_out: int | 
     reason = _reason(choice)
     text, refusal = _text(message.get("content")), _text(message.get("refusal"))
     refusal = refusal or _refusal_part(message.get("content"))
-    cut_off = reason.lower() in _CUT_OFF
+    cut_off = any(_CUT_OFF.search(why) for why in _reasons(choice))
     if not text.strip() and not refusal and not cut_off:
         others = (_tool_calls(message), *(_text(message.get(f)) for f in _REASONING_FIELDS))
         text = next(filter(str.strip, others), "")
-    refused = bool(refusal) or reason.lower() in _REFUSED
+    refused = bool(refusal) or not _REFUSED.isdisjoint(_reasons(choice))
     return Completion(
         text, (refusal or text) if refused else None, cut_off, reason, tokens_in, tokens_out
     )
 
 
 def _reason(choice: Mapping[str, Any]) -> str:
-    return str(choice.get("finish_reason") or choice.get("native_finish_reason") or "none")
+    return next((_plain_reason(choice[name]) for name in _REASONS if choice.get(name)), "none")
+
+
+def _reasons(choice: Mapping[str, Any]) -> tuple[str, ...]:
+    """What server and provider say of the end, which may be two things, in plain words."""
+    said = (_plain_reason(choice.get(name)).lower() for name in _REASONS)
+    return tuple(re.sub(r"[ -]", "_", why.removeprefix("finish_reason_")) for why in said)
+
+
+def _plain_reason(reason: object) -> str:
+    if isinstance(reason, Mapping):
+        reason = reason.get("type") or reason.get("reason")
+    return reason if isinstance(reason, str) else ""
 
 
 def _tool_calls(message: Mapping[str, Any]) -> str:

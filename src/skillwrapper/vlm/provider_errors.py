@@ -89,7 +89,7 @@ def _unknown_parameter(name: str) -> re.Pattern[str]:
 
 
 _REFUSED = range(400, 500)
-_BUSY = frozenset({408, 409, 425, 429, 502, 503, 504, 529})
+_BUSY = frozenset({408, 409, 424, 425, 429, 498, 502, 503, 504, 529})
 _BELIEVED = frozenset(range(200, 600)) - _BUSY
 """Statuses that do not speak against what the words say; some servers say 500 for everything."""
 _NO_KEY_IS_GOOD = "set the environment variable OPENAI_API_KEY to a valid key of this provider"
@@ -122,7 +122,9 @@ ROWS: tuple[Row, ...] = (
             r"blocked.{0,40}(?:safety|polic|filter)",
             r"violat.{0,40}polic",
             r"data_?inspection",
-            r"(?:inappropriate|sensitive) (?:content|words)",
+            r"(?:inappropriate|sensitive|unsafe) (?:content|words)",
+            r"content exists risk",
+            r"不安全|敏感(?:内容|词)|违规",
         ),
     ),
     Row(
@@ -163,6 +165,8 @@ ROWS: tuple[Row, ...] = (
             r"in arrears",
             r"top up",
             r"spending limit",
+            r"key limit exceeded",
+            r"余额不足|欠费",
             r"balance (?:is )?(?:too low|not enough|insufficient)",
         ),
     ),
@@ -181,12 +185,13 @@ ROWS: tuple[Row, ...] = (
         "model not for this key",
         ModelNotFoundError,
         "choose a model that your key may use, or ask the provider for it",
-        (401, 403, 404),
+        (400, 401, 403, 404),
         _words(
             r"not have (?:access|permission).{0,60}model",
             r"model.{0,80}not have access",
             r"model.{0,60}(?:not allowed|no access|gated)",
             r"must be verified to use",
+            r"model.{0,40}requires? (?:a|an|the) .{0,20}(?:subscription|plan|tier)\b",
         ),
     ),
     Row("wrong key", AuthenticationError, _NO_KEY_IS_GOOD, (401,)),
@@ -236,6 +241,7 @@ ROWS: tuple[Row, ...] = (
             r"max(?:_completion|_output|_new)?_tokens.{0,80}"
             r"(?:too large|too high|at most|exceed|must be|less than|maximum)",
             r"at most \d+ completion tokens",
+            r"range of max(?:_completion|_output|_new)?_tokens",
         ),
     ),
     Row(
@@ -250,6 +256,7 @@ ROWS: tuple[Row, ...] = (
             r"(?:system|developer)\W{0,3}(?:role|message|prompt|instruction)",
             r"(?:unknown|invalid|unsupported|unexpected) (?:message )?role\W{0,4}system",
             r"roles? (?:must|should) alternate",
+            r"\brole\b.{0,40}n[o']t support\W{0,3}(?:system|developer)\b",
             r"only user and assistant",
             r"first message (?:must|should) be.{0,20}user",
         ),
@@ -275,7 +282,9 @@ ROWS: tuple[Row, ...] = (
         _BELIEVED,
         _words(
             _unknown_parameter(r"reasoning(?:[_.]?effort)?").pattern,
-            r"(?:does not|doesn't) support thinking",
+            r"(?:does not|doesn't) support (?:thinking|reasoning)",
+            r"(?:thinking|reasoning)(?: mode)? is not supported",
+            r"invalid\W{0,3}reasoning[_.]?effort",
         ),
     ),
     Row(
@@ -286,6 +295,18 @@ ROWS: tuple[Row, ...] = (
         _words(
             rf"{_PICTURES}.{{0,60}}(?:too (?:large|big)|dimensions?\b|"
             r"exceeds?.{0,40}(?:bytes|[km]b\b|pixels|size))"
+        ),
+    ),
+    Row(
+        "picture not read",
+        ModelCapabilityError,
+        "it takes no pictures in PNG, or not of this size (--image-size); choose another endpoint",
+        _BELIEVED,
+        _words(
+            r"(?:could not|cannot|can't|unable to|failed to) "
+            rf"(?:process|load|decode|read|identify) (?:the |input |an )?{_PICTURES}\b",
+            rf"{_PICTURES} (?:is|are) not valid",
+            r"invalid[_ ](?:image|base64)(?:[_ ](?:format|data|type))?\b(?! ?url)",
         ),
     ),
     Row(
@@ -315,6 +336,7 @@ ROWS: tuple[Row, ...] = (
             r"mmproj",
             r"at most 0 (?:image|picture)",
             r"content.{0,60}(?:must be|should be|expected)(?: an?)?(?: valid)? string",
+            r"invalid value\W{0,3}image_url",
         ),
     ),
     Row(
@@ -331,6 +353,7 @@ ROWS: tuple[Row, ...] = (
             r"token (?:limit|count).{0,30}exceed",
             r"exceeds? .{0,40}(?:tokens|context)",
             r"(?:input|prompt) (?:length|tokens?).{0,40}exceed",
+            r"range of input length",
         ),
     ),
     Row(
@@ -350,6 +373,7 @@ ROWS: tuple[Row, ...] = (
             r"pull(?:ing)? it first",
             r"models? (?:is )?not loaded",
             r"no models? (?:is |are )?loaded",
+            r"not work with the specified model",
         ),
     ),
     Row("moved", ModelNotFoundError, CHECK_ADDRESS, range(300, 400)),
@@ -369,6 +393,13 @@ ROWS: tuple[Row, ...] = (
     Row("forbidden", AuthenticationError, _NO_KEY_IS_GOOD, (403,)),
     Row("body too large", ModelCapabilityError, "send smaller pictures (--image-size)", (413,)),
     Row("unavailable for legal reasons", _refused, _REWORD, (451,)),
+    Row(
+        "model too large for its machine",
+        ModelCapabilityError,
+        "choose a smaller model, or give the server more memory",
+        range(500, 600),
+        _words(r"requires more (?:system |gpu |video )?memory"),
+    ),
     Row("busy", TemporaryProviderError, "", _BUSY),
     Row("server error", TemporaryProviderError, "", range(500, 600)),
     Row("other", ProviderError, "the provider does not accept this request"),
