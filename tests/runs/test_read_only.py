@@ -1,4 +1,4 @@
-"""Runs on media that cannot be written to: they can be looked at, and learning says so."""
+"""Runs and experiments on media that cannot be written to: to be looked at, not to go on."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
+from skillwrapper.evaluation.benchmark.experiments import Experiment
 from skillwrapper.runs.launch import learn
 
 _DROP_CAPABILITY, _OVERRIDE_RIGHTS = 24, 1
@@ -23,9 +25,12 @@ def _obey_rights() -> None:
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    path = tmp_path_factory.mktemp("media") / "run"
-    learn({"domain": "burger", "iterations": 1, "exploration.budget": 6}, path)
+def media(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A run and an experiment that ended in another place."""
+    path = tmp_path_factory.mktemp("media")
+    learn({"domain": "burger", "iterations": 1, "exploration.budget": 6}, path / "run")
+    experiment = Experiment(name="x", methods=("expert",), domains=("burger",), seeds=(0,))
+    ExperimentFolder.create_or_resume(path / "experiment", experiment)
     everything = [path, *path.rglob("*")]
     for one in everything:
         one.chmod(0o555 if one.is_dir() else 0o444)
@@ -58,14 +63,17 @@ def commands(*lines: Sequence[object]) -> list[tuple[int, str, str]]:
     return [tuple(json.loads(line)) for line in done.stdout.splitlines()]
 
 
-def test_it_can_be_looked_at_and_what_must_write_says_so(run: Path, tmp_path: Path) -> None:
-    before, page = sorted(run.rglob("*")), tmp_path / "page.html"
-    shown, called, reported, refused, learned = commands(
+def test_it_can_be_looked_at_and_what_must_write_says_so(media: Path, tmp_path: Path) -> None:
+    run, experiment, asked = media / "run", media / "experiment", tmp_path / "asked.yaml"
+    asked.write_text("{name: x, methods: [expert], domains: [burger], seeds: [0]}")
+    before, page = sorted(media.rglob("*")), tmp_path / "page.html"
+    shown, called, reported, refused, learned, compared = commands(
         ("show", run),
         ("calls", run),
         ("report", run, "--out", page),
         ("report", run),
         ("learn", "burger", "--iterations", 2, "--budget", 6, "--out", run),
+        ("experiment", "run", asked, "--out", experiment),
     )
     assert "certificate" in shown[1]
     assert "evaluate" in called[1]
@@ -75,4 +83,6 @@ def test_it_can_be_looked_at_and_what_must_write_says_so(run: Path, tmp_path: Pa
     assert "report.html: cannot be written" in refused[2]
     assert "RunFolderError" in learned[2]
     assert "calls.sqlite: the call" in learned[2]
-    assert sorted(run.rglob("*")) == before
+    assert "FileNotWritableError" in compared[2]  # a traceback about its lock, once
+    assert "runs.jsonl: cannot be written" in compared[2]
+    assert sorted(media.rglob("*")) == before

@@ -7,7 +7,7 @@ import signal
 import time
 from pathlib import Path
 
-from skillwrapper.evaluation.benchmark.running import CellOutcome
+from skillwrapper.evaluation.benchmark.workers import CellOutcome
 from skillwrapper.evaluation.methods.cell import Cell
 
 

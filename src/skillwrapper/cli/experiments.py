@@ -22,11 +22,11 @@ from skillwrapper.errors import ConfigurationError
 from skillwrapper.evaluation.benchmark.experiment_files import read_experiment
 from skillwrapper.evaluation.benchmark.experiment_folder import ERROR, ExperimentFolder
 from skillwrapper.evaluation.benchmark.plots import plot_experiment
-from skillwrapper.evaluation.benchmark.processes import open_workers
 from skillwrapper.evaluation.benchmark.ray_workers import open_ray_workers
-from skillwrapper.evaluation.benchmark.running import CellOutcome, run_experiment
+from skillwrapper.evaluation.benchmark.running import open_workers, run_experiment
 from skillwrapper.evaluation.benchmark.summary import ExperimentSummary, summarise
 from skillwrapper.evaluation.benchmark.table_formats import to_csv, to_latex, to_markdown
+from skillwrapper.evaluation.benchmark.workers import CellOutcome
 from skillwrapper.evaluation.methods.cell import Cell
 
 FolderArgument = Annotated[Path, typer.Argument(help="Folder of an experiment.")]

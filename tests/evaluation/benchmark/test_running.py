@@ -14,13 +14,14 @@ from skillwrapper.evaluation.benchmark import running
 from skillwrapper.evaluation.benchmark.cells import RESULT, CellResult
 from skillwrapper.evaluation.benchmark.experiment_folder import ExperimentFolder
 from skillwrapper.evaluation.benchmark.experiments import Experiment, ProblemChoice
-from skillwrapper.evaluation.benchmark.processes import Processes, open_workers
+from skillwrapper.evaluation.benchmark.processes import Processes
 from skillwrapper.evaluation.benchmark.running import (
     ERROR,
-    CellOutcome,
     OwnProcess,
+    open_workers,
     run_experiment,
 )
+from skillwrapper.evaluation.benchmark.workers import CellOutcome
 from skillwrapper.evaluation.methods.cell import Cell
 from skillwrapper.evaluation.methods.settings import ExperimentSettings
 from skillwrapper.exploration.settings import ExplorationSettings

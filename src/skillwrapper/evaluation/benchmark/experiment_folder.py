@@ -9,7 +9,6 @@ truth/                  labels of predicates in all states, shared by all cells
 
 from __future__ import annotations
 
-import fcntl
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
@@ -27,6 +26,7 @@ from skillwrapper.evaluation.problems.problem_files import read_problems, write_
 from skillwrapper.evaluation.problems.problems import ProblemSet
 from skillwrapper.evaluation.published import PublishedResults, published_figures
 from skillwrapper.files.json_documents import read_records
+from skillwrapper.files.locking import locked
 from skillwrapper.files.writing import append_line, is_leftover, remove_leftovers, write_atomically
 from skillwrapper.files.yaml_documents import YamlDocument
 from skillwrapper.redaction import without_secrets
@@ -37,7 +37,6 @@ ERROR = "error.txt"
 
 _EXPERIMENT = "experiment.yaml"
 _RUNS = "runs.jsonl"
-_LOCK = ".lock"
 
 
 @dataclass(frozen=True)
@@ -166,14 +165,11 @@ class ExperimentFolder:
         Raises:
             RunFolderError: if another process is at it.
         """
-        with (self.path / _LOCK).open("w") as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError as error:
-                raise RunFolderError(
-                    f"{self.path}: another process is running this experiment; wait for it, "
-                    "or choose another --out"
-                ) from error
+        busy = (
+            f"{self.path}: another process is running this experiment; wait for it, "
+            "or choose another --out"
+        )
+        with locked(self.path, busy):
             remove_leftovers(self.path)
             yield
 

@@ -1,4 +1,7 @@
-"""Cells in processes of their own, which end when we do, however we end."""
+"""Cells in processes of their own, which end when we do, however we end.
+
+A process begins with loading this file, so it loads nothing that only some tasks need.
+"""
 
 from __future__ import annotations
 
@@ -8,21 +11,12 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
 
-from skillwrapper.errors import InternalError
-from skillwrapper.evaluation.benchmark.running import (
-    CellOutcome,
-    OwnProcess,
-    Task,
-    Workers,
-    work,
-)
+from skillwrapper.evaluation.benchmark.workers import CellOutcome, Task
 from skillwrapper.evaluation.methods.cell import Cell
 
 _RETRIES = 3
@@ -40,7 +34,7 @@ class Processes:
         grace: seconds that processes get to close what is open when they are stopped.
     """
 
-    def __init__(self, path: Path, count: int, task: Task = work, grace: float = _GRACE) -> None:
+    def __init__(self, path: Path, count: int, task: Task, grace: float = _GRACE) -> None:
         self._path, self._count, self._task, self._grace = path, count, task, grace
         self._pool = self._make_pool()
         self._futures: dict[Future[CellOutcome], Cell] = {}
@@ -125,25 +119,3 @@ def _end(number: int, frame: FrameType | None) -> None:
 def _outlive(parent: multiprocessing.process.BaseProcess) -> None:
     parent.join()
     os.kill(os.getpid(), signal.SIGTERM)  # to the process: its main thread may be waiting
-
-
-@contextmanager
-def open_workers(path: Path, count: int) -> Iterator[Workers]:
-    """Workers on this machine.
-
-    Args:
-        path: folder of the experiment.
-        count: how many cells at a time, at least 1.
-    """
-    if count < 1:
-        raise InternalError(f"expected at least 1 worker, got {count}; please report it")
-    if count == 1:
-        yield OwnProcess(path)
-        return
-    processes = Processes(path, count)
-    try:
-        yield processes
-    except BaseException:
-        processes.stop()
-        raise
-    processes.close()

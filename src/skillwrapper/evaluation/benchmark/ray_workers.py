@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from skillwrapper.errors import ConfigurationError, MissingDependencyError
-from skillwrapper.evaluation.benchmark.running import CellOutcome, Task, Workers, work
+from skillwrapper.evaluation.benchmark.running import work
+from skillwrapper.evaluation.benchmark.workers import CellOutcome, Task, Workers
 from skillwrapper.evaluation.methods.cell import Cell
 
 _LOCAL = "local"

@@ -4,52 +4,23 @@ from __future__ import annotations
 
 import traceback
 from collections import deque
-from collections.abc import Callable
-from contextlib import closing
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import Protocol
 
 from skillwrapper.domains.discovery import find_domain
-from skillwrapper.errors import SkillWrapperError
+from skillwrapper.errors import InternalError, SkillWrapperError
 from skillwrapper.evaluation.benchmark.cells import run_cell
 from skillwrapper.evaluation.benchmark.experiment_folder import ERROR, ExperimentFolder
+from skillwrapper.evaluation.benchmark.processes import Processes
+from skillwrapper.evaluation.benchmark.workers import CellOutcome, Workers
 from skillwrapper.evaluation.exact.exact_states import ExactStates
 from skillwrapper.evaluation.methods.cell import Cell, domain_key
 from skillwrapper.evaluation.methods.method import CellContext
 from skillwrapper.evaluation.methods.registry import METHODS
 from skillwrapper.files.writing import remove_leftovers, write_atomically
 from skillwrapper.redaction import without_secrets
-
-
-@dataclass(frozen=True)
-class CellOutcome:
-    """A cell has ended.
-
-    Attributes:
-        cell: the cell.
-        error: why it failed, in one line; empty if it did not.
-    """
-
-    cell: Cell
-    error: str = ""
-
-
-Task = Callable[[Path, Cell], CellOutcome]
-"""Runs one cell of the experiment in a folder."""
-
-
-class Workers(Protocol):
-    """Run cells, several at a time."""
-
-    def submit(self, cell: Cell) -> None:
-        """Take a cell on; returns at once."""
-        ...
-
-    def next(self) -> CellOutcome:
-        """Wait for the next cell to end."""
-        ...
 
 
 def run_experiment(
@@ -150,3 +121,25 @@ class OwnProcess:
     def next(self) -> CellOutcome:
         """Run the next cell."""
         return work(self._path, self._cells.popleft())
+
+
+@contextmanager
+def open_workers(path: Path, count: int) -> Iterator[Workers]:
+    """Workers on this machine.
+
+    Args:
+        path: folder of the experiment.
+        count: how many cells at a time, at least 1.
+    """
+    if count < 1:
+        raise InternalError(f"expected at least 1 worker, got {count}; please report it")
+    if count == 1:
+        yield OwnProcess(path)
+        return
+    processes = Processes(path, count, work)
+    try:
+        yield processes
+    except BaseException:
+        processes.stop()
+        raise
+    processes.close()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +9,7 @@ from pathlib import Path
 import yaml
 
 from skillwrapper.errors import RunFolderError, UserError
+from skillwrapper.files.locking import locked
 from skillwrapper.files.writing import (
     explained,
     is_leftover,
@@ -96,12 +95,14 @@ def reserved(path: Path) -> Iterator[None]:
     is_new = not path.exists()
     with explained(path):
         path.mkdir(parents=True, exist_ok=True)
-        handle = os.open(path, os.O_RDONLY)
+    busy = (
+        f"{path}: another process is learning in this folder; wait until it ends, or choose "
+        "another --out"
+    )
     try:
-        _lock(handle, path)
-        yield
+        with locked(path, busy):
+            yield
     finally:
-        os.close(handle)
         if is_new and not any(path.iterdir()):
             path.rmdir()
 
@@ -128,15 +129,3 @@ def _keep_domain(archive: RunArchive, domain: Domain) -> None:
             f"{archive.path}: the domain '{domain.name}' is not what it was when the run started "
             f"({archive.layout.domain}); choose another --out"
         )
-
-
-def _lock(handle: int, path: Path) -> None:
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError as error:
-        raise RunFolderError(
-            f"{path}: another process is learning in this folder; wait until it ends, or choose "
-            "another --out"
-        ) from error
-    except OSError:
-        """A file system without locks: nobody can be kept out."""
