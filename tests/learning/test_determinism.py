@@ -148,3 +148,39 @@ def test_a_place_is_empty_once_the_last_thing_is_taken() -> None:
     fit = notebook.fit_skill("Take")
     assert len(fit.operators) == 2
     assert fit.inconsistencies == ()
+
+
+PASSAGES = make_domain(
+    types={"robot": (), "room": (), "passage": (), "door": ("passage",), "turnstile": ("passage",)},
+    objects={"r": "robot", "hall": "room", "shed": "room", "yard": "room"}
+    | {"oak": "door", "gate": "turnstile"},
+    skills={"Enter": "robot passage room"},
+)
+INSIDE, SIDE = Predicate("inside", ("robot", "room")), Predicate("side", ("passage", "room"))
+SIDES = "side(oak, hall) side(oak, shed) side(gate, hall) side(gate, yard)"
+
+
+def passages(times_in: int) -> Notebook:
+    """A door is passed both ways; a turnstile leads into the yard, and not out of it."""
+    notebook = Notebook(PASSAGES)
+    for n in range(3):
+        for start, goal in (("hall", "shed"), ("shed", "hall")):
+            here = f"{SIDES} inside(r, {start}) #{n}"
+            notebook.success(here, f"Enter(r, oak, {goal})", f"{SIDES} inside(r, {goal}) #{n}")
+        if n < times_in:
+            here = f"{SIDES} inside(r, hall) #{n}"
+            notebook.success(here, "Enter(r, gate, yard)", f"{SIDES} inside(r, yard) #{n}")
+        notebook.failure(f"{SIDES} inside(r, yard) #{n}", "Enter(r, gate, hall)")
+    return notebook
+
+
+def test_what_needs_more_with_one_kind_is_learned_by_itself() -> None:
+    fit = passages(3).fit(INSIDE, SIDE)
+    assert fit.inconsistencies == ()
+    assert {o.operator.parameters[1].types for o in fit.operators} == {("door",), ("turnstile",)}
+
+
+def test_of_few_successes_of_a_kind_it_is_not_believed() -> None:
+    """What they happen to have in common would hide that a predicate is missing."""
+    fit = passages(2).fit(INSIDE, SIDE)
+    assert fit.inconsistencies

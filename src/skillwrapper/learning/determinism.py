@@ -89,12 +89,18 @@ def _restrict(
 ) -> tuple[LearnedOperator, ...]:
     """Operators of fewer combinations of types, if failures tell that the others never work.
 
-    Combinations that worked are joined again as long as that predicts no more failures to work.
-    Nothing if no combination of types failed often enough where the operator applies.
+    The same if one that works fails often too, but needs more than the others: who gets in by a
+    turnstile does not get out by it. Combinations that worked are joined again as long as that
+    predicts no more failures to work. Nothing if no combination of types failed often enough where
+    the operator applies.
     """
-    worked = {tuple(group.types[: language.arity]) for group in learned.cluster.groups}
     parts = _split_by_types(learned.cluster)
-    if len(parts) < 2 or not _refuted(predictor, learned) - worked:
+    refuted = _refuted(predictor, learned)
+    if len(parts) < 2 or not refuted:
+        return ()
+    worked = {tuple(group.types[: language.arity]) for group in learned.cluster.groups}
+    are_known = all(len(part.ids) >= _OFTEN for part in parts)
+    if refuted <= worked and not are_known:
         return ()
     name = learned.operator.name
     found: list[tuple[Cluster, LearnedOperator]] = []
@@ -109,7 +115,8 @@ def _restrict(
         else:
             found.append((part, alone))
     operators = tuple(operator for _, operator in found)
-    return operators if not _mistakes(predictor, operators) else ()
+    before, after = _failures(predictor, [learned]), _failures(predictor, operators)
+    return operators if after < before and not _mistakes(predictor, operators) else ()
 
 
 def _refuted(predictor: Predictor, learned: LearnedOperator) -> set[tuple[tuple[str, ...], ...]]:
