@@ -6,6 +6,7 @@ import random
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 from pydantic import ValidationError
@@ -467,3 +468,15 @@ def test_nothing_is_no_answer_where_something_must_differ(burger: Domain) -> Non
     helper, model = assistant(lambda _: "Nothing", unusable_reasks=1)
     helper.invent_predicates(invention(burger, InconsistencyKind.EFFECT))
     assert len(model.requests) == 2
+
+
+def test_two_moments_far_apart_are_said_to_be_so(burger: Domain) -> None:
+    """D26"""
+    helper, model = assistant(lambda _: "Nothing")
+    question = invention(burger, InconsistencyKind.UNNOTICED)
+    helper.invent_predicates(question)
+    helper.invent_predicates(replace(question, wide=True, long=True))
+    once, apart = (request.prompt for request in model.requests)
+    assert "The robot ran one of its skills, and it worked." in once
+    assert "Between the two pictures the robot ran several of its skills" in apart
+    assert "The robot ran one of its skills, and it worked." not in apart

@@ -11,6 +11,7 @@ from typing import Protocol
 from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.exchanges import find_exchange
 from skillwrapper.invention.fitter import Fitter
+from skillwrapper.invention.look_alikes import LookAlikes
 from skillwrapper.invention.pruning import find_burdens, follows
 from skillwrapper.invention.rejections import Rejections
 from skillwrapper.invention.ripeness import Ripeness
@@ -80,6 +81,7 @@ class Inventor:
         self._unnoticed = UnnoticedChanges(
             settings.attempts, everywhere=settings.unnoticed_everywhere
         )
+        self._look_alikes = LookAlikes(settings.attempts)
         self._shelf = Shelf()
         self._ripeness = Ripeness(labeller)
         self._screen = Screen(labeller, self._steadiness, settings)
@@ -89,6 +91,7 @@ class Inventor:
         self._questions: Counter[Identity] = Counter()
         self._vain: Counter[int] = Counter()
         self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
+        self._beaten: dict[Predicate, None] = {}
         self._open: frozenset[Identity] = frozenset()
         self._rounds_left = settings.max_inventions
         self._trials_left = settings.max_trials
@@ -251,14 +254,17 @@ class Inventor:
     def _next(self, fit: Fit, *, unnoticed: bool) -> Inconsistency | None:
         """The cause tried least; conditions 1 and 2 before determinism and unexplained changes.
 
-        Only if nothing else is left, and ``unnoticed`` is asked for, a skill that seems to change
-        nothing.
+        Only if nothing else is left, and ``unnoticed`` is asked for, a success that may have
+        changed something unnoticed, and then two pictures that look alike.
         """
         tries = self._settings.attempts
         causes = distinct_causes(self._ripe(fit))
         left = [c for c in causes if self._attempts[c.identity] < tries and self._may_tell(c)]
         if not left and unnoticed:
-            return self._unnoticed.next(fit, self._fitter.recorded)
+            found = self._unnoticed.next(fit, self._fitter.recorded)
+            if found is None and self._settings.look_alikes:
+                found = self._look_alikes.next(self._fitter.labeller, self._vocabulary.active)
+            return found
         return min(
             left,
             key=lambda c: (self._attempts[c.identity], _ORDER.index(c.kind)),
@@ -287,7 +293,11 @@ class Inventor:
         self._best = tuple(p for p in self._best if p not in predicates)
 
     def _retract(self, predicates: Sequence[Predicate]) -> None:
+        """Take back, and try next what others were preferred to: a choice was wrong."""
         self._drop(predicates)
+        for predicate in self._vocabulary.fresh(self._beaten, predicates):
+            self._vocabulary.set_dormant(predicate)
+        self._beaten.clear()
         self._rejections.retract(predicates)
         self._attempts.clear()
         for predicate in predicates:
@@ -316,7 +326,10 @@ class Inventor:
         proposed = self._proposer.propose(shown, fit.predicates, rejected, number)
         fresh = self._vocabulary.fresh(proposed, rejected)
         is_named = self._try(inconsistency, fit, fresh, dormant=False)
-        if _is_of_a_change(inconsistency):
+        if inconsistency.since is not None:
+            recorded = self._fitter.recorded
+            self._look_alikes.note(inconsistency, recorded, in_vain=not is_named)
+        elif _is_of_a_change(inconsistency):
             self._unnoticed.note(
                 inconsistency,
                 len(self._fitter.recorded),
@@ -446,6 +459,8 @@ class Inventor:
         reason = trial.shortcoming(self._settings.threshold)
         if not reason:
             reason = "another candidate leaves less unexplained" if trial in worth else _BURDEN
+        if best is not None and trial in worth:
+            self._beaten[trial.predicate] = None
         if not trial.dormant:
             self._reject(trial.predicate, inconsistency)
         self._decide(Verdict.REJECTED, inconsistency, trial, reason)

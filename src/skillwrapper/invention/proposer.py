@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from skillwrapper.invention.questions import (
@@ -56,12 +57,15 @@ class ModelProposer:
     ) -> Sequence[Predicate]:
         """Candidates that may tell the two transitions apart; may be empty."""
         records = self._recorded.records
-        second = inconsistency.second
+        second, since = inconsistency.second, inconsistency.since
+        first = records[inconsistency.first].transition
+        if since is not None:
+            first = replace(first, before=records[since].transition.before)
         question = InventionQuestion(
             domain=self._recorded.domain,
             skill=self._recorded.domain.skill_by_name[inconsistency.skill],
             kind=inconsistency.kind,
-            first=records[inconsistency.first].transition,
+            first=first,
             second=None if second is None else records[second].transition,
             types=self._types(inconsistency),
             unexplained=inconsistency.unexplained,
@@ -70,6 +74,7 @@ class ModelProposer:
             count=self._settings.candidates,
             attempt=attempt,
             wide=inconsistency.wide,
+            long=since is not None,
         )
         found = self._adviser.invent_predicates(question).predicates
         return tuple(dict.fromkeys(shaped for p in found for shaped in self._shaped(p)))

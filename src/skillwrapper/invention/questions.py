@@ -30,6 +30,8 @@ class InventionQuestion:
         rejected: candidates that were tried and rejected.
         count: how many candidates are wanted.
         wide: for UNNOTICED whether the change may be one of other objects than the arguments.
+        long: for UNNOTICED whether the first picture was taken long before, with other skills in
+            between, and in ``first`` stands in the place of the one before.
         attempt: 0 for the first time the question is asked, then 1, 2, ...
     """
 
@@ -45,6 +47,7 @@ class InventionQuestion:
     count: int
     attempt: int = 0
     wide: bool = False
+    long: bool = False
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillwrapper.grounding import AtomSpace
+from skillwrapper.invention.look_alikes import look_alikes, tells_more
 from skillwrapper.invention.settings import LearningSettings
 from skillwrapper.invention.steadiness import Steadiness
-from skillwrapper.invention.unnoticed import look_alikes, tells_more
 from skillwrapper.invention.witnesses import Witnesses
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind

@@ -96,6 +96,11 @@ class LearningSettings(LearnerSettings):
         default=True,
         description="whether that is asked of every change too: what else has changed (D26)",
     )
+    look_alikes: bool = Field(
+        default=True,
+        description="whether the model is shown pictures that look alike though other things were "
+        "done before them, and asked what is different, when nothing else is left to ask (D26)",
+    )
     new_causes: bool = Field(
         default=True,
         description="whether predicates are asked for during an episode too, as soon as a new "

@@ -55,7 +55,7 @@ class Trial:
         skill = fit.skill(inconsistency.skill)
         if inconsistency.kind is InconsistencyKind.UNNOTICED:
             # A change has its name, even if what it hangs on has none yet: no score is asked for.
-            remains = skill.unnoticed is not None
+            remains = inconsistency.since is None and skill.unnoticed is not None
             return cls(predicate, dormant, fit, 1.0, remains=remains, undecided=False)
         decides_one = any(
             i.witness not in skill.witnesses and i.culprit not in skill.undecided

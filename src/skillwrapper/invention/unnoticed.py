@@ -6,28 +6,22 @@ First come skills of which all successes seem to change nothing, then what else 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from skillwrapper.grounding import TRUE, UNKNOWN, AtomSpace, Labels
+from skillwrapper.grounding import TRUE, Labels
 from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.learning.kinds import InconsistencyKind
-from skillwrapper.perception.labelling import Labeller
 from skillwrapper.symbols import Atom, Predicate
 from skillwrapper.transitions.lifting import LiftedChange
 from skillwrapper.transitions.recorded import RecordedTransitions
 from skillwrapper.transitions.tables import Group
-from skillwrapper.world.observation import Observation
-from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 _WAIT, _GROWTH, _LATER, _AGAIN = 4 / 3, 1.5, 2.0, 4.0
-_ALIKE = 4
-"""So many pictures that look alike to the vocabulary are compared with one another."""
-
 _Context = tuple[str, LiftedChange, SkillInstance, frozenset[Atom]]
 """A success by its skill, its change, its instance, and what held nearby before."""
 
@@ -260,70 +254,3 @@ class Shelf:
         for predicate, _ in due:
             del self._kept[predicate]
         return due
-
-
-def look_alikes(
-    labeller: Labeller, vocabulary: Sequence[Predicate], asked: Inconsistency
-) -> tuple[Scene, tuple[Observation, ...]]:
-    """The pictures before and after a success, and those that are alike to the vocabulary."""
-    scene, groups = _groups(labeller, vocabulary, asked)
-    return scene, tuple(dict.fromkeys(o for group in groups for o in group))
-
-
-def tells_more(
-    labeller: Labeller,
-    vocabulary: Sequence[Predicate],
-    asked: Inconsistency,
-    candidates: Sequence[Predicate],
-) -> set[Predicate]:
-    """The candidates that tell pictures apart which are alike to the vocabulary.
-
-    They are looked for among those that look like the ones before and after the success.
-    """
-    scene, groups = _groups(labeller, vocabulary, asked)
-    seen = [o for group in groups for o in group]
-    labeller.truth.prefetch((AtomSpace((p,), scene.objects), seen) for p in candidates)
-    telling = set()
-    for predicate in candidates:
-        space = AtomSpace((predicate,), scene.objects)
-        for group in groups:
-            labels = labeller.truth.labels(space, group)
-            known = (labels != UNKNOWN).all(axis=0)
-            if (labels[:, known] != labels[0, known]).any():
-                telling.add(predicate)
-    return telling
-
-
-def _groups(
-    labeller: Labeller, vocabulary: Sequence[Predicate], asked: Inconsistency
-) -> tuple[Scene, list[list[Observation]]]:
-    """Pictures that look like the one before the success, and like the one after it.
-
-    Those first before which the most other things were done in their episodes.
-    """
-    record = labeller.recorded.records[asked.culprit]
-    observations = labeller.recorded.observations(record.scene)
-    states = labeller.values(record.scene, vocabulary)
-    deeds = _deeds(labeller.recorded)
-    groups = []
-    for place in dict.fromkeys((record.before, record.after)):
-        same = np.flatnonzero((states == states[place]).all(axis=1)).tolist()
-        own = deeds.get(observations[place].key, frozenset())
-        unlike = sorted(
-            (n for n in same if n != place),
-            key=lambda n: len(own ^ deeds.get(observations[n].key, frozenset())),
-            reverse=True,
-        )[:_ALIKE]
-        groups.append([observations[n] for n in (place, *unlike)])
-    return record.scene, groups
-
-
-def _deeds(recorded: RecordedTransitions) -> dict[str, frozenset[SkillInstance]]:
-    """For every picture, by its key, what had succeeded in the episode by then."""
-    found: dict[str, frozenset[SkillInstance]] = {}
-    for record in recorded.records:
-        transition = record.transition
-        before = found.setdefault(transition.before.key, frozenset())
-        done = before | {transition.instance} if transition.success else before
-        found.setdefault(transition.after.key, done)
-    return found

@@ -87,6 +87,8 @@ class Witnesses:
         before, after = record.transition.before, record.transition.after
         if not self._compares_changes:
             return [before]
+        if self._inconsistency.since is not None:
+            return [self._records[self._inconsistency.since].transition.before, after]
         return [before, before if record.unchanged else after]
 
     def _labels(self, number: int, predicate: Predicate) -> tuple[AtomSpace, Labels]:

@@ -43,6 +43,8 @@ class Inconsistency:
         partners: numbers of the transitions that the culprit can be shown beside, the one that
             differs least first; for UNNOTICED those that can be shown in its place.
         wide: for UNNOTICED whether the change may be one of other objects than the arguments.
+        since: for UNNOTICED the number of an earlier transition, if what was seen before that one
+            is compared with what was seen after the culprit.
     """
 
     kind: InconsistencyKind
@@ -54,6 +56,7 @@ class Inconsistency:
     unexplained: tuple[Atom, ...] = ()
     partners: tuple[int, ...] = ()
     wide: bool = False
+    since: int | None = None
 
     @property
     def witness(self) -> Witness:

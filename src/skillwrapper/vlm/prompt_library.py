@@ -51,7 +51,7 @@ PROMPT_VARIABLES: Mapping[PromptKind, frozenset[str]] = MappingProxyType(
         PromptKind.INVENT_EFFECT: _INVENTION,
         PromptKind.INVENT_DETERMINISM: _INVENTION,
         PromptKind.INVENT_UNEXPLAINED: _INVENTION | {"unexplained"},
-        PromptKind.INVENT_UNNOTICED: _INVENTION | {"wide"},
+        PromptKind.INVENT_UNNOTICED: _INVENTION | {"wide", "long"},
         PromptKind.INVENT_BATCH: _SCENE | {"slots", "count"},
         PromptKind.REPHRASE: frozenset({"domain", "candidate", "slots", "wanted"}),
         PromptKind.EVALUATE: _SCENE | {"predicates", "atoms"},

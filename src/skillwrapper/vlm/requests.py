@@ -114,7 +114,7 @@ class RequestBuilder:
         if question.kind is InconsistencyKind.UNEXPLAINED:
             variables["unexplained"] = question.unexplained
         if question.kind is InconsistencyKind.UNNOTICED:
-            variables["wide"] = question.wide
+            variables |= {"wide": question.wide, "long": question.long}
         prompt = self._prompts.render(_INVENTION_PROMPTS[question.kind], **variables)
         return self._request(Role.INVENT, question.domain, prompt, pictures)
 
