@@ -53,7 +53,17 @@ def _parsers() -> tuple[DomainParser, ProblemParser]:
 def read_with_unified_planning(texts: Texts) -> Any:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)
-        return PDDLReader().parse_problem_string(*texts)
+        try:
+            return _reader().parse_problem_string(*texts)
+        except BaseException:
+            _reader.cache_clear()
+            raise
+
+
+@cache
+def _reader() -> PDDLReader:
+    """Making its grammar takes longer than reading any of our domains."""
+    return PDDLReader()
 
 
 def read_with_translator(many: Iterable[Texts]) -> None:

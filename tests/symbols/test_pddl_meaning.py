@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from model_strategies import DOMAIN, models
+from pddl_readers import read_with_unified_planning
 from scalar_grounding import ground_operator
 from unified_planning.engines.sequential_simulator import UPSequentialSimulator
-from unified_planning.io import PDDLReader
 
 from skillwrapper.grounding import TRUE, GroundModel, Labels
 from skillwrapper.symbols import (
@@ -93,9 +91,5 @@ def compare(model: AbstractModel, data: st.DataObject, most: int) -> None:
 
 def simulate(model: AbstractModel, ground: GroundModel, row: Labels) -> UPSequentialSimulator:
     problem = print_problem(model, DOMAIN.objects, ground.space.true_atoms(row), ())
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        return UPSequentialSimulator(
-            PDDLReader().parse_problem_string(print_domain(model), problem),
-            error_on_failed_checks=False,
-        )
+    read = read_with_unified_planning((print_domain(model), problem))
+    return UPSequentialSimulator(read, error_on_failed_checks=False)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -11,10 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from model_strategies import DOMAIN, models
-from pddl_readers import read_with_pddl_library, read_with_translator
+from pddl_readers import (
+    read_with_pddl_library,
+    read_with_translator,
+    read_with_unified_planning,
+)
 from scalar_grounding import ground_operator
 from unified_planning.engines.sequential_simulator import UPSequentialSimulator
-from unified_planning.io import PDDLReader
 
 from skillwrapper.domains.burger.expert import expert_atoms, expert_model
 from skillwrapper.domains.burger.states import BurgerState
@@ -46,9 +48,7 @@ def test_an_action_applies_where_the_operator_does(
     printer = PositivePddl(model, DOMAIN.objects)
     texts = printer.domain(), printer.problem(ground.space.true_atoms(row), ())
     assert not BEYOND.search("".join(texts))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        problem = PDDLReader().parse_problem_string(*texts)
+    problem = read_with_unified_planning(texts)
     simulator = UPSequentialSimulator(problem, error_on_failed_checks=False)
     state = simulator.get_initial_state()
     names = printer.names
