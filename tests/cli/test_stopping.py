@@ -7,9 +7,11 @@ import signal
 import subprocess
 import sys
 import time
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import pytest
+from command_line import begun
 from seen_kitchen import embedded_model
 
 from skillwrapper.embedded.server import ServerSettings, VlmServer
@@ -19,17 +21,17 @@ WITHIN = 12.0
 """Seconds; two are promised, on a machine with nothing else to do. What waits takes a minute."""
 
 
-def start(out: Path, server: VlmServer, *more: str) -> subprocess.Popen[str]:
-    line = ["learn", "burger", "--out", str(out), "--model", "openai:embedded"]
+@pytest.fixture(autouse=True)
+def _no_proxies(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in [name for name in os.environ if name.lower().endswith("_proxy")]:
+        monkeypatch.delenv(name)
+
+
+def start(folder: Path, server: VlmServer, *more: str) -> BaseProcess:
+    """Learning in ``run``, of which all that it says goes into ``said``."""
+    line = ["learn", "burger", "--out", str(folder / "run"), "--model", "openai:embedded"]
     line += ["--base-url", server.url, "--parallel", "8", "--votes", "8", *more]
-    environment = {k: v for k, v in os.environ.items() if not k.lower().endswith("_proxy")}
-    return subprocess.Popen(
-        [sys.executable, "-m", "skillwrapper", *line],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment,
-    )
+    return begun(line, folder / "said")
 
 
 def waiting(server: VlmServer) -> None:
@@ -40,15 +42,12 @@ def waiting(server: VlmServer) -> None:
     time.sleep(0.3)
 
 
-def ended(process: subprocess.Popen[str]) -> tuple[int, str]:
-    """The exit code and what was said; fails if it takes too long."""
-    try:
-        _, said = process.communicate(timeout=WITHIN)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.communicate()
-        raise
-    return process.returncode, said
+def ended(process: BaseProcess, within: float = WITHIN) -> int | None:
+    """The exit code; that of being killed if it takes too long."""
+    process.join(within)
+    process.kill()
+    process.join()
+    return process.exitcode
 
 
 def busy_for(seconds: float, kind: str) -> VlmServer:
@@ -63,11 +62,11 @@ def busy_for(seconds: float, kind: str) -> VlmServer:
 )
 def test_signals(number: signal.Signals, code: int, kind: str, tmp_path: Path) -> None:
     with busy_for(60, kind) as server:
-        process = start(tmp_path / "run", server)
+        process = start(tmp_path, server)
         waiting(server)
-        process.send_signal(number)
-        returned, said = ended(process)
-    assert returned == code
+        os.kill(process.pid or 0, number)
+        assert ended(process) == code
+    said = (tmp_path / "said").read_text()
     assert "run the same command again to go on" in " ".join(said.split())
     assert "Traceback" not in said
     assert not [p for p in (tmp_path / "run").rglob("*") if "tmp" in p.suffix]
@@ -86,8 +85,8 @@ def test_a_signal_while_everything_is_still_being_loaded(tmp_path: Path) -> None
     process.stdout.readline()
     time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    returned, said = ended(process)
-    assert (returned, "Traceback" in said) == (130, False)
+    _, said = process.communicate(timeout=WITHIN)
+    assert (process.returncode, "Traceback" in said) == (130, False)
 
 
 EXECUTED = """\
@@ -108,12 +107,7 @@ def test_a_signal_while_text_is_executed(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ["rate-limit", "slow"])
 def test_a_limit_on_time(kind: str, tmp_path: Path) -> None:
     with busy_for(60, kind) as server:
-        process = start(tmp_path / "run", server, "--max-seconds", "4")
+        process = start(tmp_path, server, "--max-seconds", "4")
         waiting(server)
-        try:
-            _, said = process.communicate(timeout=4 + WITHIN)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            raise
-    assert process.returncode == 3
-    assert "limit reached: 4 seconds" in said
+        assert ended(process, 4 + WITHIN) == 3
+    assert "limit reached: 4 seconds" in (tmp_path / "said").read_text()

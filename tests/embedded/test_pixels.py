@@ -2,10 +2,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
 from PIL import Image
 
 from skillwrapper.embedded.pixels import (
     ColourTable,
+    Counts,
     Patch,
     box_around,
     decode_pixels,
@@ -36,6 +40,24 @@ def test_patches_are_connected_by_edges_not_by_corners() -> None:
         Patch(Box(2, 1, 4, 3), 4),
     )
     assert find_patches(np.zeros((2, 2), np.int64)) == ()
+
+
+@given(
+    arrays(np.int64, array_shapes(min_dims=2, max_dims=2, max_side=6), elements=st.integers(0, 2))
+)
+def test_every_patch_is_what_can_be_reached_over_edges(amount: Counts) -> None:
+    cells = [(int(row), int(column)) for row, column in np.argwhere(amount)]
+    expected = []
+    while cells:
+        reached = [cells.pop(0)]
+        for row, column in reached:
+            around = ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1))
+            reached += [cell for cell in around if cell in cells]
+            cells = [cell for cell in cells if cell not in reached]
+        rows, columns = zip(*reached, strict=True)
+        box = Box(min(columns), min(rows), max(columns) + 1, max(rows) + 1)
+        expected.append(Patch(box, sum(int(amount[cell]) for cell in reached)))
+    assert find_patches(amount) == tuple(expected)
 
 
 def test_middle_is_where_most_was_counted() -> None:

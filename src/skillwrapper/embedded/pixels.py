@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -109,15 +109,55 @@ class Patch:
     pixels: int
 
 
+class _Run(NamedTuple):
+    """Blocks side by side in one row that are not zero."""
+
+    row: int
+    left: int
+    right: int
+    pixels: int
+
+    def touches(self, above: _Run) -> bool:
+        """Whether it has an edge in common with a run of the row above."""
+        return self.left < above.right and above.left < self.right
+
+
 def find_patches(amount: Counts) -> tuple[Patch, ...]:
     """Connected patches of blocks (rows, columns) that are not zero, from the upper left on."""
-    rows, columns = np.nonzero(amount)
-    cells = list(zip(rows.tolist(), columns.tolist(), strict=True))
-    waiting = set(cells)
-    return tuple(
-        _patch_of(list(_take_connected(start, waiting)), amount)
-        for start in cells
-        if start in waiting
+    runs = _runs(amount)
+    earlier = list(range(len(runs)))  # for each run another of its patch that comes before it
+
+    def first(number: int) -> int:
+        while earlier[number] != number:
+            number = earlier[number]
+        return number
+
+    start_above = start = 0
+    for number, run in enumerate(runs):
+        if run.row != runs[start].row:
+            start_above, start = start, number
+        for above in range(start_above, start):
+            if runs[above].row == run.row - 1 and run.touches(runs[above]):
+                one, other = sorted((first(above), first(number)))
+                earlier[other] = one
+    patches: dict[int, list[_Run]] = {}
+    for number, run in enumerate(runs):
+        patches.setdefault(first(number), []).append(run)
+    return tuple(map(_patch_of, patches.values()))
+
+
+def _runs(amount: Counts) -> list[_Run]:
+    """All runs, row by row, from the left."""
+    height, width = amount.shape
+    filled = np.zeros((height, width + 2), np.bool_)  # with nothing at both ends of every row
+    filled[:, 1:-1] = amount
+    rows, columns = np.divmod(np.flatnonzero(filled[:, 1:] != filled[:, :-1]), width + 1)
+    sums = np.zeros(amount.size + 1, np.int64)
+    amount.cumsum(out=sums[1:])
+    until = sums[rows * width + columns]
+    pixels = (until[1::2] - until[::2]).tolist()
+    return list(
+        map(_Run, rows[::2].tolist(), columns[::2].tolist(), columns[1::2].tolist(), pixels)
     )
 
 
@@ -135,22 +175,7 @@ def middle_of(amount: Counts) -> tuple[float, float]:
     return float(column), float(row)
 
 
-def _patch_of(cells: list[tuple[int, int]], amount: Counts) -> Patch:
-    rows, columns = [row for row, _ in cells], [column for _, column in cells]
-    box = Box(min(columns), min(rows), max(columns) + 1, max(rows) + 1)
-    return Patch(box, sum(int(amount[cell]) for cell in cells))
-
-
-def _take_connected(
-    start: tuple[int, int], waiting: set[tuple[int, int]]
-) -> Iterator[tuple[int, int]]:
-    """Take the cells connected with one out of the waiting cells."""
-    waiting.discard(start)
-    edge = [start]
-    while edge:
-        row, column = edge.pop()
-        yield row, column
-        for cell in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1)):
-            if cell in waiting:
-                waiting.discard(cell)
-                edge.append(cell)
+def _patch_of(runs: Sequence[_Run]) -> Patch:
+    left, right = min(run.left for run in runs), max(run.right for run in runs)
+    box = Box(left, runs[0].row, right, runs[-1].row + 1)
+    return Patch(box, sum(run.pixels for run in runs))
