@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -55,7 +56,7 @@ def find_domain(reference: str) -> DomainPackage:
     if at and plain and not Path(reference).expanduser().exists():
         return find_domain(plain).drawn(drawing)
     if reference in bundled_names():
-        return DomainPackage.read(_BUNDLED / reference, reference)
+        return _bundled(reference)
     if reference in _entry_points():
         return _installed(reference)
     path = Path(reference).expanduser()
@@ -65,6 +66,12 @@ def find_domain(reference: str) -> DomainPackage:
         return _as_package(load_object(reference, Path(), f"domain '{reference}'"), reference)
     names = (*domain_names(), "a folder with a domain.yaml")
     raise UnknownNameError("domain", reference, names)
+
+
+@cache
+def _bundled(name: str) -> DomainPackage:
+    """A bundled domain: its files do not change while a process is at work."""
+    return DomainPackage.read(_BUNDLED / name, name)
 
 
 def _entry_points() -> Mapping[str, importlib.metadata.EntryPoint]:

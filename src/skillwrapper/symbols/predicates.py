@@ -56,10 +56,11 @@ class Predicate:
 
     def groundings(self, objects: Sequence[Object]) -> tuple[Atom, ...]:
         """All ground atoms over distinct objects of the right types, in the objects' order."""
+        fitting = ([o.name for o in objects if t in o.types] for t in self.types)
         return tuple(
-            Atom(self.name, tuple(o.name for o in chosen))
-            for chosen in itertools.permutations(objects, self.arity)
-            if all(t in o.types for t, o in zip(self.types, chosen, strict=True))
+            Atom(self.name, chosen)
+            for chosen in itertools.product(*fitting)
+            if len(set(chosen)) == len(chosen)
         )
 
 

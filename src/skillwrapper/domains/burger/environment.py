@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,12 @@ from skillwrapper.world.simulator import Simulator
 from skillwrapper.world.skills import SkillInstance
 
 _layout_of = lru_cache(maxsize=64)(make_layout)
+_renderer_of = cache(BurgerRenderer)
+
+
+@cache
+def _kitchen() -> Domain:
+    return load_domain(Path(__file__).with_name("domain.yaml"))
 
 
 class BurgerEnvironment(Simulator[BurgerState]):
@@ -34,8 +40,8 @@ class BurgerEnvironment(Simulator[BurgerState]):
     """
 
     def __init__(self, style: Style = CLASSIC, *, domain: Domain | None = None) -> None:
-        super().__init__(domain or load_domain(Path(__file__).with_name("domain.yaml")))
-        self._renderer = BurgerRenderer(style)
+        super().__init__(domain or _kitchen())
+        self._style = style
 
     def start(self) -> BurgerState:
         """All items on their tables and the hand empty."""
@@ -51,7 +57,8 @@ class BurgerEnvironment(Simulator[BurgerState]):
 
     def draw(self, state: BurgerState, layout: int) -> Picture:
         """The kitchen from above."""
-        return Picture(encode_png(self._renderer.render(state, _layout_of(layout))))
+        picture = _renderer_of(self._style).render(state, _layout_of(layout))
+        return Picture(encode_png(picture))
 
     def true_atoms(self, state: BurgerState) -> Iterator[tuple[str, tuple[str, ...]]]:
         """The true atoms of ``system_predicates.SYSTEM_PREDICATES``."""
