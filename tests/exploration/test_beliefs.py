@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from house import HOUSE, SCENE, House
+from notebook import Notebook
+from pottery import POTTERY, WORDS
 
 from skillwrapper.exploration.beliefs import Beliefs, Expectations
 from skillwrapper.grounding import AtomSpace
@@ -56,3 +58,27 @@ def test_what_failed_may_work_where_other_things_hold() -> None:
     same, other = found.elsewhere[:, place("Tie", "h", "front", "back")].tolist()
     assert same == 0.0 < other < 1.0
     assert found.elsewhere[0, place("Light", "h", "lamp")] == 1.0  # never done
+
+
+def test_arguments_of_other_types_may_work_where_all_holds_that_the_skill_needs() -> None:
+    """Who is put on the wheel takes it; a shelf is never taken: no operator can say both."""
+    notebook = Notebook(POTTERY, *WORDS)
+    wheel = "free(p) at(red, wheel) taken(wheel) at(grey, shelf)"
+    notebook.success("holds(p, red) at(grey, shelf)", "Put(p, red, wheel)", wheel)
+    instances = tuple(sorted(POTTERY.skill_instances))
+    number = instances.index(SkillInstance("Put", ("p", "red", "shelf")))
+
+    def chances() -> list[float]:
+        fit = notebook.fit()
+        space = AtomSpace(fit.predicates, POTTERY.objects)
+        states = ("holds(p, red) at(grey, shelf)", "free(p) at(red, shelf) at(grey, shelf)")
+        rows = [[str(atom) in state for atom in space.atoms] for state in states]
+        labels = np.array(rows, dtype=np.int8)
+        found = Beliefs().expect(fit, space, labels, instances, doubt=0.01)
+        return [float(value) for value in found.success[:, number]]
+
+    assert chances() == [1 / 2, 0.0]
+    notebook.failure("free(p) at(red, shelf) at(grey, shelf)", "Put(p, red, shelf)")
+    assert chances() == [1 / 2, 0.0]  # it failed where what it needs does not hold
+    notebook.failure("holds(p, red) at(grey, shelf)", "Put(p, red, shelf)")
+    assert chances() == [1 / 3, 0.0]

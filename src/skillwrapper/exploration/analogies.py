@@ -47,10 +47,14 @@ class Analogies:
     Args:
         spaces: what is believed of the operators of other skills.
         arity: how many arguments the skill takes.
+        in_order: whether parameters are only those in the same place; so it is with operators of
+            the skill itself, for arguments of other types.
     """
 
-    def __init__(self, spaces: Sequence[VersionSpace], arity: int) -> None:
-        found = dict.fromkeys(f for space in spaces for f in _families(space, arity))
+    def __init__(
+        self, spaces: Sequence[VersionSpace], arity: int, *, in_order: bool = False
+    ) -> None:
+        found = dict.fromkeys(f for space in spaces for f in _families(space, arity, in_order))
         self._families = tuple(found)
         atoms = dict.fromkeys(a for f in self._families for a in sorted(f.needed | f.barred))
         self._closed = [atom for atom in atoms if ANY not in atom[1]]
@@ -94,13 +98,14 @@ def newness(
     return found
 
 
-def _families(space: VersionSpace, arity: int) -> Iterator[Family]:
+def _families(space: VersionSpace, arity: int, in_order: bool) -> Iterator[Family]:
     """One for every order of the operator's own parameters that needs anything of the arguments."""
     operator = space.operator
     likely = [c for c in space.conditions if space.probability[c] >= _LIKELY]
     own = [variable.name for variable in operator.parameters[: operator.arity]]
     spare = [ANY] * max(0, len(own) - arity)
-    for places in sorted(set(itertools.permutations([*range(arity), *spare], len(own)))):
+    orders = sorted(set(itertools.permutations([*range(arity), *spare], len(own))))
+    for places in orders[:1] if in_order else orders:
         place = {v.name: ANY for v in operator.context} | dict(zip(own, places, strict=True))
         needed, barred = set(), set()
         for condition in likely:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
@@ -21,6 +22,8 @@ from skillwrapper.learning.version_space import VersionSpace, version_spaces
 from skillwrapper.transitions.tables import SkillTable
 from skillwrapper.world.skills import SkillInstance
 
+ArgumentTypes = tuple[tuple[str, ...], ...]
+"""The types of the arguments of a skill instance."""
 _AMONG_ALIKE = 0.5
 """What is new among attempts that are alike counts so much beside what is new altogether."""
 
@@ -85,6 +88,8 @@ class SkillBeliefs:
         self._failed = self._kinds(success=False)
         arity = len(fit.domain.skill_by_name[skill].parameters)
         self._analogies = Analogies(others, arity)
+        self._siblings = Analogies(self.spaces, arity, in_order=True)
+        self._failed_like_siblings = Counter(self._kinds_that_failed_like_siblings())
         self._failed_members = self._members_that_failed()
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
 
@@ -115,7 +120,8 @@ class SkillBeliefs:
         failing = np.ones(len(attempts))
         for version_space in self.spaces:
             failing *= 1 - version_space.success_probability(space, attempts)
-        figures = [1 - failing, *self._novelty(space, states, attempts, instances)]
+        success = np.maximum(1 - failing, self._like_siblings(space, attempts))
+        figures = [success, *self._novelty(space, states, attempts, instances)]
         return np.stack(figures).reshape(_FIGURES, len(states), len(instances))
 
     def _novelty(
@@ -142,6 +148,30 @@ class SkillBeliefs:
         return [
             alone, failed.pairs, promise, done.alone, done.pairs, untried, unlike, elsewhere
         ]  # fmt: skip
+
+    def _like_siblings(self, space: AtomSpace, attempts: Attempts) -> NDArray[np.float64]:
+        """How likely attempts work, with arguments of types that never worked (attempts,).
+
+        What the skill changes may be another thing then, which no operator can say. So where all
+        holds that it seems to need of arguments of other types, it is as likely as not, and less
+        with every failure there, by the rule of succession.
+        """
+        kinds = _types_of(space, attempts)
+        likely = [
+            0.0 if kind in self._worked else 1 / (2 + self._failed_like_siblings[kind])
+            for kind in kinds
+        ]
+        found = np.array(likely)[attempts.which] if likely else np.zeros(len(attempts))
+        if found.any():
+            found *= self._siblings.members(space, attempts).any(axis=1)
+        return found
+
+    def _kinds_that_failed_like_siblings(self) -> Iterator[ArgumentTypes]:
+        """The types of arguments, once for every failure where all held that others need."""
+        for table in self._tables:
+            like = self._siblings.members(table.space, attempts_of(table)).any(axis=1)
+            for row in np.flatnonzero(like & ~table.success).tolist():
+                yield table.argument_types(row)
 
     def _untried(
         self, seen: Features, attempts: Attempts, instances: list[SkillInstance]
@@ -178,10 +208,7 @@ class SkillBeliefs:
         if not self.of_skill.operators:
             return promise_of(seen, self._failures)
         found = np.zeros(len(seen))
-        kinds = [
-            tuple(space.objects[n].types for n in arguments)
-            for arguments in attempts.arguments.tolist()
-        ]
+        kinds = _types_of(space, attempts)
         for kind in dict.fromkeys(kinds):
             if kind not in self._worked:
                 own = np.array([k == kind for k in kinds], dtype=bool)[attempts.which]
@@ -193,7 +220,7 @@ class SkillBeliefs:
     def _tables(self) -> list[SkillTable]:
         return [prediction.table for prediction in self.of_skill.predictions]
 
-    def _kinds(self, *, success: bool) -> list[tuple[tuple[str, ...], ...]]:
+    def _kinds(self, *, success: bool) -> list[ArgumentTypes]:
         """The types of the arguments of earlier attempts (attempts,), in the order of ``_of``."""
         return [
             table.argument_types(row)
@@ -212,6 +239,11 @@ class SkillBeliefs:
         tables = zip(self._tables, seen, strict=True)
         found = [own[table.success == success] for table, own in tables]
         return np.vstack(found) if found else np.zeros((0, 0), dtype=bool)
+
+
+def _types_of(space: AtomSpace, attempts: Attempts) -> list[ArgumentTypes]:
+    """The types of the arguments of every skill instance (instances,)."""
+    return [tuple(space.objects[n].types for n in own) for own in attempts.arguments.tolist()]
 
 
 def _values(states: Labels) -> Features:
