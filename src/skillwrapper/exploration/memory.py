@@ -18,9 +18,9 @@ from skillwrapper.world.scenes import Scene
 from skillwrapper.world.skills import SkillInstance
 
 _FADING = 0.8
-"""What is left of a surprise after the next attempt of its kind."""
+"""What is left of a surprise after the next attempt of its kind, or once it is explained."""
 _WEARING = 0.9
-"""What is left of what is known of a single instance after its next attempt."""
+"""What is left of what speaks for a single instance after its next attempt."""
 _PATIENCE = 3
 """After three times so many disappointments hope and patience are half of what they were."""
 
@@ -83,7 +83,8 @@ class Memory:
         self.proven: set[Kind] = set()
         self._vain: set[tuple[bytes, SkillInstance]] = set()
         self._done: set[tuple[bytes, SkillInstance]] = set()
-        self._kept: dict[SkillInstance, tuple[float, float]] = {}
+        self._kept: dict[SkillInstance, float] = defaultdict(float)
+        self._broken: dict[SkillInstance, list[int]] = defaultdict(list)
         self.roles: Roles = np.zeros(0, dtype=np.intp)
         self.deeds: Deeds = np.zeros(0, dtype=np.int64)
         self.histories = Histories()
@@ -143,17 +144,31 @@ class Memory:
             self._failed[instance.skill] |= set(enumerate(signature))
 
     def rely(self, instance: SkillInstance, *, kept: bool) -> None:
-        """Take note of whether an instance that surely works led where the model says."""
-        right, times = self._kept.get(instance, (0.0, 0.0))
-        self._kept[instance] = right * _WEARING + kept, times * _WEARING + 1
+        """Take note of whether the latest attempt, which surely works, led where the model says."""
+        if kept:
+            self._kept[instance] = self._kept[instance] * _WEARING + 1
+        else:
+            self._broken[instance].append(len(self.signatures) - 1)
 
-    def reliability(self, scene: SceneRoles) -> NDArray[np.float64]:
+    def reliability(self, scene: SceneRoles, unexplained: Collection[int]) -> NDArray[np.float64]:
         """How likely each instance (instances,) leads where the model is sure that it does.
 
-        One that never failed there is relied on; else the share by the rule of succession.
+        One that never failed there is relied on; else the share by the rule of succession. What
+        led elsewhere speaks against the model as long as that does not explain it. Once it does,
+        other operators stand in the place of those that were wrong, or a label was; they are
+        relied on again bit by bit, as nothing was done with them yet.
+
+        Args:
+            scene: the instances.
+            unexplained: numbers of the attempts that the model predicts wrongly.
         """
-        kept = [self._kept.get(instance, (0.0, 0.0)) for instance in scene.instances]
-        shares = [1.0 if right == times else (right + 1) / (times + 2) for right, times in kept]
+        now = len(self.signatures)
+        shares = []
+        for instance in scene.instances:
+            broken = self._broken.get(instance, ())
+            wrong = sum(1.0 if n in unexplained else _FADING ** (now - n) for n in broken)
+            right = self._kept.get(instance, 0.0)
+            shares.append((right + 1) / (right + 1 + 2 * wrong))
         return np.array(shares, dtype=np.float64)
 
     def hope(self, what: str | Kind | SkillInstance) -> float:

@@ -182,7 +182,7 @@ class PlannedExplorer:
             depth=min(self._settings.lookahead, situation.left - 1),
             most=max(1, self._settings.weighed // max(1, len(scene.instances))),
             blocked=np.flatnonzero(failed).tolist(),
-            reliability=self._memory.reliability(scene),
+            reliability=self._memory.reliability(scene, _unexplained(situation.fit)),
         )
         frail = _frail(situation)
         causes = _causes(situation, frail)
@@ -385,6 +385,11 @@ class PlannedExplorer:
 def _silent(fit: Fit) -> frozenset[str]:
     """The skills of which no success seems to change anything."""
     return frozenset(skill for skill, of in fit.skills.items() if of.unnoticed is not None)
+
+
+def _unexplained(fit: Fit) -> frozenset[int]:
+    """The numbers of the transitions that the model predicts wrongly."""
+    return frozenset(number for _, _, number in fit.witnesses)
 
 
 def _causes(situation: Situation, frail: Sequence[Lead]) -> tuple[Lead, ...]:
