@@ -12,6 +12,7 @@ import numpy as np
 from skillwrapper.grounding import UNKNOWN
 from skillwrapper.grounding.abstract_states import different_rows
 from skillwrapper.invention.fitter import Fitter
+from skillwrapper.invention.narrowing import narrower
 from skillwrapper.invention.vocabulary import Vocabulary
 from skillwrapper.learning.fitting import Fit, SkillFit
 from skillwrapper.symbols import Predicate
@@ -22,15 +23,26 @@ _CHANGE = 1.0
 
 @dataclass(frozen=True)
 class Pruned:
-    """A predicate that was set dormant, and why."""
+    """A predicate that was taken out of use, and why.
+
+    Attributes:
+        predicate: the predicate.
+        reason: for people.
+        instead: the same for narrower types, which took its place; None if nothing did.
+    """
 
     predicate: Predicate
     reason: str
+    instead: Predicate | None = None
 
 
 def prune(fitter: Fitter, vocabulary: Vocabulary) -> tuple[Pruned, ...]:
-    """Merge synonyms and antonyms, then set dormant what is superfluous."""
-    return (*_merge(fitter, vocabulary), *_drop_superfluous(fitter, vocabulary))
+    """Merge synonyms and antonyms, set dormant what is superfluous, narrow what is too wide."""
+    return (
+        *_merge(fitter, vocabulary),
+        *_drop_superfluous(fitter, vocabulary),
+        *_narrow(fitter, vocabulary),
+    )
 
 
 def find_burdens(
@@ -148,6 +160,21 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
         if all(_is_as_good(one, fit.skill(one.skill)) for one in without.each()):
             vocabulary.set_dormant(predicate)
             pruned.append(Pruned(predicate, "its removal adds no inconsistency"))
+
+
+def _narrow(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
+    """Say of narrower types what only these become, if that adds no inconsistency."""
+    pruned: list[Pruned] = []
+    for predicate in vocabulary.active:
+        fit = fitter.fit(vocabulary.active)
+        candidate = narrower(predicate, fit)
+        if candidate is not None:
+            narrowed = fitter.fit(vocabulary.with_candidate(candidate))
+            as_good = all(_is_as_good(one, fit.skill(one.skill)) for one in narrowed.each())
+            if as_good and narrowed.cost <= fit.cost:
+                vocabulary.accept(candidate)
+                pruned.append(Pruned(predicate, "skills change it of narrower types", candidate))
+    return pruned
 
 
 def follows(fitter: Fitter, others: Sequence[Predicate], predicate: Predicate) -> bool:

@@ -197,7 +197,8 @@ class LearningAlgorithm:
         self._inventor.invent()
         if self._settings.learning.prune:
             for pruned in prune(self._fitter, self._vocabulary):
-                self._note(PredicateDecision.of_pruned(pruned))
+                for decision in PredicateDecision.of_pruned(pruned):
+                    self._note(decision)
         result = self._result()
         self._convergence.remember(result.fit)
         self._tell(IterationFinished(self._iteration, result, self._labels(result)))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from skillwrapper.invention.decisions import CandidateDecision
+from skillwrapper.invention.decisions import CandidateDecision, Verdict
 from skillwrapper.invention.pruning import Pruned
 from skillwrapper.learning.inconsistencies import Inconsistency
 from skillwrapper.symbols import Predicate
@@ -63,9 +63,13 @@ class PredicateDecision:
         )
 
     @classmethod
-    def of_pruned(cls, pruned: Pruned) -> PredicateDecision:
-        """What pruning set dormant."""
-        return cls(DORMANT, pruned.predicate, pruned.reason)
+    def of_pruned(cls, pruned: Pruned) -> Iterator[PredicateDecision]:
+        """What pruning took out of use, and what it put in its place."""
+        if pruned.instead is None:
+            yield cls(DORMANT, pruned.predicate, pruned.reason)
+        else:
+            yield cls(str(Verdict.RETRACTED), pruned.predicate, pruned.reason)
+            yield cls(str(Verdict.ACCEPTED), pruned.instead, pruned.reason)
 
 
 def witnesses_of(
