@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import count
 
 import numpy as np
@@ -61,7 +62,12 @@ State = tuple[Lump, Lump]
 START: State = (Lump(), Lump())
 
 
-def true_atoms(state: State) -> Iterator[Atom]:
+@cache
+def true_atoms(state: State) -> frozenset[Atom]:
+    return frozenset(_true_atoms(state))
+
+
+def _true_atoms(state: State) -> Iterator[Atom]:
     places = [lump.place for lump in state]
     yield from [atom("free(p)")] if "hand" not in places else []
     for machine in {"wheel", "kiln"} & set(places):
@@ -72,6 +78,7 @@ def true_atoms(state: State) -> Iterator[Atom]:
             yield from [atom(f"{word}({name})")] if getattr(lump, word) else []
 
 
+@cache
 def succeed(state: State, instance: SkillInstance) -> State | None:
     """The next state, which may be the same; None if the skill fails."""
     places = [lump.place for lump in state]
@@ -107,7 +114,7 @@ class Eye:
         return seen
 
     def labels(self, space: AtomSpace, observations: Sequence[Observation]) -> Labels:
-        true = [frozenset(true_atoms(self._states[o.key])) for o in observations]
+        true = [true_atoms(self._states[o.key]) for o in observations]
         rows = [[a in own for a in space.atoms] for own in true]
         return np.array(rows, dtype=np.int8).reshape(len(observations), len(space.atoms))
 
@@ -130,9 +137,12 @@ def all_states() -> tuple[State, ...]:
 STATES = all_states()
 
 
+@cache
 def row(state: State) -> Labels:
-    true = frozenset(true_atoms(state))
-    return np.array([a in true for a in SPACE.atoms], dtype=np.int8)
+    true = true_atoms(state)
+    labels = np.array([a in true for a in SPACE.atoms], dtype=np.int8)
+    labels.flags.writeable = False
+    return labels
 
 
 def mistakes(model: AbstractModel) -> list[tuple[State, SkillInstance]]:
