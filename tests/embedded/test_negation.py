@@ -24,6 +24,17 @@ half_done | item | The item is only half cooked. |
 hardly_done | item | The item is hardly cooked. |
 barely_cut | item | The item is barely cut. |
 kept_off | item | The item avoids the stove. |
+ungripped | item | The item is held by no robot. |
+ungripped | item | The item is held by no one. |
+ungripped | item | The item is held by nothing. |
+ungripped | item | No robot holds the item. |
+handless | item | The item is in no hand. |
+homeless | item | The item lies on no station. |
+homeless | item | The item rests on nothing. |
+to_cook | item | The item is before being cooked. |
+to_cut | item | The item is shown before it is cut. |
+open_top | item | No item lies on the item. | nothing on
+open_top | item | The item has no other thing on it. | nothing on
 kept_from | item | Something prevents the item from being held. |
 refused | robot item | The robot refuses to hold the item. |
 tried | robot item | The robot tries to hold the item. |

@@ -35,7 +35,7 @@ _NOT_SO_NOW = (
     r"|ready (?:to|for)|able to|going to|needs? to|supposed to|meant to|to be|used to|formerly"
     r"|previously|almost|nearly|half|halfway|partly|partially|sometimes|tr(?:ies|ying) to"
     r"|attempt(?:s|ing)? to|wants? to|expected|ought|belongs?|only in|imagin\w+|await\w*|pre(?=-)"
-    r"|pretend\w*|seems? to have been|soon|later|before long|planned|intended|due"
+    r"|pretend\w*|seems? to have been|soon|later|before (?:long|it|being|the)|planned|intended|due"
     r"|(?:was|were|had been) (?=on|in|at|under|near|held|placed)"
 )
 _ELSEWHERE = (
