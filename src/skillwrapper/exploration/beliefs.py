@@ -120,7 +120,7 @@ class SkillBeliefs:
         failing = np.ones(len(attempts))
         for version_space in self.spaces:
             failing *= 1 - version_space.success_probability(space, attempts)
-        success = np.maximum(1 - failing, self._like_siblings(space, attempts))
+        success = np.where(failing < 1, 1 - failing, self._like_siblings(space, attempts))
         figures = [success, *self._novelty(space, states, attempts, instances)]
         return np.stack(figures).reshape(_FIGURES, len(states), len(instances))
 
@@ -152,9 +152,9 @@ class SkillBeliefs:
     def _like_siblings(self, space: AtomSpace, attempts: Attempts) -> NDArray[np.float64]:
         """How likely attempts work, with arguments of types that never worked (attempts,).
 
-        What the skill changes may be another thing then, which no operator can say. So where all
-        holds that it seems to need of arguments of other types, it is as likely as not, and less
-        with every failure there, by the rule of succession.
+        What the skill changes may be another thing then, so that no operator can be bound. So where
+        all holds that it seems to need of arguments of other types, it is as likely as not, and
+        less with every failure there, by the rule of succession.
         """
         kinds = _types_of(space, attempts)
         likely = [
