@@ -10,6 +10,10 @@ import typer.main
 import typer.testing
 from hypothesis import settings
 
+from skillwrapper.threads import use_one_thread
+
+use_one_thread()
+
 # A shell that runs us in the background ignores Ctrl-C for us, and so for all that tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from skillwrapper.exploration.analogies import Analogies, newness
-from skillwrapper.exploration.novelty import Features, Novelty, see_features
+from skillwrapper.exploration.novelty import Earlier, Features, see_features
 from skillwrapper.exploration.promise import promise_of
 from skillwrapper.grounding import FALSE, TRUE, AtomSpace, Labels
 from skillwrapper.grounding.abstract_states import AbstractStates
@@ -91,6 +91,7 @@ class SkillBeliefs:
         self._siblings = Analogies(self.spaces, arity, in_order=True)
         self._failed_like_siblings = Counter(self._kinds_that_failed_like_siblings())
         self._failed_members = self._members_that_failed()
+        self._held: dict[tuple[AtomSpace, SkillInstance, bool], Earlier] = {}
         self._known: dict[tuple[AtomSpace, bytes], NDArray[np.float64]] = {}
 
     def expect(
@@ -135,7 +136,9 @@ class SkillBeliefs:
         looked_up = AbstractStates(labels)
         useful_attempts = Attempts(looked_up, attempts.arguments, attempts.rows, attempts.which)
         seen = see_features(useful, useful_attempts, self._types)
-        failed, done = Novelty.of(seen, self._failures), Novelty.of(seen, self._successes)
+        failed, done = (
+            of.novelty(seen) for of in (self._earlier_failures, self._earlier_successes)
+        )
         members = self._analogies.members(space, attempts)
         alike = newness(seen, members, self._failures, self._failed_members)
         alone = np.maximum(failed.alone, _AMONG_ALIKE * alike)
@@ -187,13 +190,22 @@ class SkillBeliefs:
         self, space: AtomSpace, states: Labels, instances: list[SkillInstance], success: bool
     ) -> NDArray[np.float64]:
         """Beside all that held where the instance succeeded, or failed (states, instances)."""
-        tables = [table for table in self._tables if table.space == space]
         found, seen = np.ones((len(states), len(instances))), _values(states)
         for number, instance in enumerate(instances):
-            rows = [table.before[_attempts_at(table, instance, success)] for table in tables]
-            earlier = np.vstack([states[:0], *rows])
-            found[:, number] = Novelty.of(seen, _values(earlier)).pairs
+            key = space, instance, success
+            if key not in self._held:
+                self._held[key] = Earlier(_values(self._held_where(space, instance, success)))
+            found[:, number] = self._held[key].novelty(seen).pairs
         return found
+
+    def _held_where(self, space: AtomSpace, instance: SkillInstance, success: bool) -> Labels:
+        """The states (states, atoms) in which the instance succeeded, or failed."""
+        rows = [
+            table.before[_attempts_at(table, instance, success)]
+            for table in self._tables
+            if table.space == space
+        ]
+        return np.vstack([np.zeros((0, len(space.atoms)), dtype=np.int8), *rows])
 
     def _members_that_failed(self) -> NDArray[np.bool_]:
         """Of which families earlier failures were (failures, families)."""
@@ -215,6 +227,14 @@ class SkillBeliefs:
                 rows = [n for n, k in enumerate(self._failed) if k == kind]
                 found[own] = promise_of(seen[own], self._failures[rows])
         return found
+
+    @cached_property
+    def _earlier_failures(self) -> Earlier:
+        return Earlier(self._failures)
+
+    @cached_property
+    def _earlier_successes(self) -> Earlier:
+        return Earlier(self._successes)
 
     @cached_property
     def _tables(self) -> list[SkillTable]:

@@ -96,10 +96,25 @@ class Novelty:
     @classmethod
     def of(cls, seen: Features, earlier: Features) -> Novelty:
         """Beside earlier attempts, of which there may be none."""
+        return Earlier(earlier).novelty(seen)
+
+
+class Earlier:
+    """What earlier attempts saw, and what they saw together; worked out once.
+
+    Args:
+        features: what each saw (attempts, features).
+    """
+
+    def __init__(self, features: Features) -> None:
+        before = features.astype(np.float32)
+        self._unseen = (before.T @ before == 0).astype(np.float32)
+
+    def novelty(self, seen: Features) -> Novelty:
+        """How new attempts are that see something (attempts, features)."""
         first, place = different_rows(seen)
-        rows, before = seen[first].astype(np.float32), earlier.astype(np.float32)
-        unseen = (before.T @ before == 0).astype(np.float32)
-        alone = np.clip(rows @ np.diag(unseen) / 2, 0, 1)
+        rows = seen[first].astype(np.float32)
+        alone = np.clip(rows @ np.diag(self._unseen) / 2, 0, 1)
         total = np.maximum(rows.sum(axis=1) ** 2, 1)
-        pairs = ((rows @ unseen) * rows).sum(axis=1) / total
-        return cls(alone[place], pairs[place])
+        pairs = ((rows @ self._unseen) * rows).sum(axis=1) / total
+        return Novelty(alone[place], pairs[place])
