@@ -163,8 +163,14 @@ def _drop_superfluous(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
 
 
 def _narrow(fitter: Fitter, vocabulary: Vocabulary) -> list[Pruned]:
-    """Say of narrower types what only these become, if that adds no inconsistency."""
+    """Say of narrower types what only these become, if that adds no inconsistency.
+
+    Only where readings may be wrong: else what a word was widened for was so, and to read it
+    anew in all pictures would cost as much as to read another one.
+    """
     pruned: list[Pruned] = []
+    if not fitter.labeller.misread:
+        return pruned
     for predicate in vocabulary.active:
         fit = fitter.fit(vocabulary.active)
         candidate = narrower(predicate, fit)
