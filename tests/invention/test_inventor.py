@@ -477,25 +477,6 @@ def test_what_takes_more_than_it_explains_goes_also_when_no_question_is_left() -
     assert study.active == ["empty", "held"]
 
 
-def test_when_something_is_taken_back_what_it_was_preferred_to_is_tried_again() -> None:
-    """A choice was wrong, and the model might never say the other thing again."""
-    notebook = Notebook(KITCHEN)
-    for number in range(2):
-        notebook.success(f"empty(r) large(r) #{number}", "Take(r, a)", "held(a)")
-        notebook.failure(f"held(b) #{number}", "Take(r, a)")
-    study = Study(notebook, [EMPTY, LARGE], active=[HELD])
-    study.inventor.invent()
-    (chosen,) = {EMPTY, LARGE} & {*study.words.active}
-    (other,) = {EMPTY, LARGE} - {chosen}
-    assert study.words.dormant == ()
-    study.inventor._retract([chosen])
-    assert study.words.dormant == (other,)
-    asked = len(study.proposer.asked)
-    study.inventor.invent()
-    assert study.active == ["held", other.name]
-    assert len(study.proposer.asked) == asked
-
-
 def test_same_questions_same_answers_same_vocabulary() -> None:
     """D14"""
     answers = ([SHINY, ROUND], [HELD, EMPTY], [ON], [FREE, NEAR])

@@ -91,7 +91,6 @@ class Inventor:
         self._questions: Counter[Identity] = Counter()
         self._vain: Counter[int] = Counter()
         self._postponed: dict[Identity, tuple[Predicate, ...]] = {}
-        self._beaten: dict[Predicate, None] = {}
         self._open: frozenset[Identity] = frozenset()
         self._rounds_left = settings.max_inventions
         self._trials_left = settings.max_trials
@@ -293,11 +292,7 @@ class Inventor:
         self._best = tuple(p for p in self._best if p not in predicates)
 
     def _retract(self, predicates: Sequence[Predicate]) -> None:
-        """Take back, and try next what others were preferred to: a choice was wrong."""
         self._drop(predicates)
-        for predicate in self._vocabulary.fresh(self._beaten, predicates):
-            self._vocabulary.set_dormant(predicate)
-        self._beaten.clear()
         self._rejections.retract(predicates)
         self._attempts.clear()
         for predicate in predicates:
@@ -459,8 +454,6 @@ class Inventor:
         reason = trial.shortcoming(self._settings.threshold)
         if not reason:
             reason = "another candidate leaves less unexplained" if trial in worth else _BURDEN
-        if best is not None and trial in worth:
-            self._beaten[trial.predicate] = None
         if not trial.dormant:
             self._reject(trial.predicate, inconsistency)
         self._decide(Verdict.REJECTED, inconsistency, trial, reason)
