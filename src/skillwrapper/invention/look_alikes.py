@@ -24,6 +24,8 @@ from skillwrapper.world.skills import SkillInstance
 
 _ALIKE = 4
 """So many pictures that look alike to the vocabulary are compared with one another."""
+_COMPARED = 200
+"""Of more that look alike, the latest are paired: there are as many pairs as its square."""
 _GROWTH = 1.5
 
 
@@ -108,10 +110,10 @@ Deeds = dict[str, frozenset[SkillInstance]]
 
 
 def _alike(states: NDArray[np.int8]) -> Iterator[NDArray[np.intp]]:
-    """Places of the pictures (pictures, atoms) that look alike, for each look of several."""
+    """Places of the latest pictures (pictures, atoms) that look alike, for each look of several."""
     _, place = different_rows(states)
     for number in np.flatnonzero(np.bincount(place) > 1):
-        yield np.flatnonzero(place == number)
+        yield np.flatnonzero(place == number)[-_COMPARED:]
 
 
 def _pairs(value: NDArray[np.float64]) -> Iterator[tuple[int, int]]:
