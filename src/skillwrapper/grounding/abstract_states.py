@@ -51,8 +51,8 @@ def different_rows(rows: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.int
     keys: list[Any] = [b""] * len(flat)
     if width:
         keys = flat.view(np.dtype((np.void, width))).ravel().tolist()
-    number = {key: n for n, key in enumerate(dict.fromkeys(keys))}
-    place = np.fromiter(map(number.__getitem__, keys), dtype=np.intp, count=len(keys))
-    first = np.zeros(len(number), dtype=np.intp)
-    first[place[::-1]] = np.arange(len(flat))[::-1]  # the last one written is the first of equals
+    number: dict[bytes, int] = {}
+    place = np.array([number.setdefault(key, len(number)) for key in keys], dtype=np.intp)
+    first = np.full(len(number), len(flat), dtype=np.intp)
+    np.minimum.at(first, place, np.arange(len(flat)))
     return first, place
