@@ -76,10 +76,6 @@ class Touched:
         self._arguments = np.zeros((len(scene.instances), len(space.objects)), dtype=np.int64)
         for number, places in enumerate(scene.places):
             self._arguments[number, places] = self._bits[number]
-        place = {one.name: number for number, one in enumerate(space.objects)}
-        self._about = np.zeros((len(space.atoms), len(space.objects)), dtype=bool)
-        for number, atom in enumerate(space.atoms):
-            self._about[number, [place[name] for name in atom.terms]] = True
 
     def by(self, instance: int, before: Labels, after: Labels) -> Deeds:
         """What an instance does with the objects (objects,).
@@ -89,10 +85,10 @@ class Touched:
             before: labels (atoms,) of the state in which it runs.
             after: those of the state in which it ends.
         """
-        meant: NDArray[np.bool_] = self._about[before != after].any(axis=0)
+        meant: NDArray[np.bool_] = self._space.mentions[before != after].any(axis=0)
         if self._silent[instance]:
-            of_arguments = self._about[:, self._arguments[instance] > 0].any(axis=1)
-            meant = meant | self._about[of_arguments & (before == TRUE)].any(axis=0)
+            of_arguments = self._space.mentions[:, self._arguments[instance] > 0].any(axis=1)
+            meant = meant | self._space.mentions[of_arguments & (before == TRUE)].any(axis=0)
         deeds: Deeds = self._arguments[instance] | meant * self._bits[instance]
         return deeds
 
@@ -106,7 +102,9 @@ class Touched:
         """
         places = self._scene.places[instance]
         names = {self._space.objects[n].name: place for place, n in enumerate(places.tolist())}
-        seen = np.flatnonzero(self._about[:, places].any(axis=1) & (labels == TRUE)).tolist()
+        seen = np.flatnonzero(
+            self._space.mentions[:, places].any(axis=1) & (labels == TRUE)
+        ).tolist()
         atoms = [self._space.atoms[n] for n in seen]
         view = frozenset((a.predicate, tuple(names.get(t, t) for t in a.terms)) for a in atoms)
         return tuple(deeds[places].tolist()), view

@@ -56,6 +56,14 @@ class AtomSpace:
         return AtomIndex(self.predicates, self.objects)
 
     @cached_property
+    def mentions(self) -> NDArray[np.bool_]:
+        """Whether each ground atom names each object (atoms, objects)."""
+        found = np.zeros((len(self.atoms), len(self.objects)), dtype=bool)
+        for number, atom in enumerate(self.atoms):
+            found[number, self.index.numbers(atom.terms)] = True
+        return found
+
+    @cached_property
     def atoms_of(self) -> dict[str, tuple[Atom, ...]]:
         """The ground atoms of every predicate."""
         return {p.name: p.groundings(self.objects) for p in self.predicates}

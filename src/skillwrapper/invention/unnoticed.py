@@ -206,19 +206,15 @@ class _Nearness:
     """
 
     def __init__(self, group: Group) -> None:
-        self._space = space = group.table.space
-        arguments = {*group.instance.arguments}
-        place = {one.name: number for number, one in enumerate(space.objects)}
-        self._about = np.zeros((len(space.atoms), len(space.objects)), dtype=bool)
-        for number, atom in enumerate(space.atoms):
-            self._about[number, [place[name] for name in atom.terms]] = True
-        self._own = self._about[:, [place[name] for name in arguments]].any(axis=1)
+        self._space = group.table.space
+        arguments = self._space.index.numbers(group.instance.arguments)
+        self._own = self._space.mentions[:, arguments].any(axis=1)
 
     def seen(self, before: Labels) -> frozenset[Atom]:
         """What holds of the arguments, and of what they stand in a relation with (atoms,)."""
         holds = before == TRUE
-        near = self._about[self._own & holds].any(axis=0)
-        close = self._own | self._about[:, near].any(axis=1)
+        near = self._space.mentions[self._own & holds].any(axis=0)
+        close = self._own | self._space.mentions[:, near].any(axis=1)
         return frozenset(self._space.atoms[n] for n in np.flatnonzero(close & holds))
 
 
