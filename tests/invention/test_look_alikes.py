@@ -83,6 +83,22 @@ def test_after_questions_in_vain_the_next_one_waits() -> None:
     assert choice.next(Labeller(notebook.recorded, notebook), [HELD]) is None
 
 
+def test_a_pair_is_not_shown_again_where_the_robot_says_that_nothing_changed() -> None:
+    notebook = Notebook(KITCHEN)
+    notebook.episode(
+        ("#0", "Take(r, a)", True, "held(a) #1"),
+        ("held(a) #1", "Put(r, a)", False, "shiny(a) #2"),  # it slipped
+    )
+    notebook.success("shiny(a) #2", "Wave(r)", "shiny(a) #3", changed=False)
+    choice, asked = LookAlikes(9), []
+    labeller = Labeller(notebook.recorded, notebook)
+    while (found := choice.next(labeller, [HELD])) is not None:
+        asked.append(found.identity)
+        choice.note(found, notebook.recorded, in_vain=True)
+        assert len(asked) == len(set(asked))
+    assert asked
+
+
 class Comparer:
     """Proposes what shines where two pictures are compared, and nothing else."""
 

@@ -64,10 +64,10 @@ class LookAlikes:
 
     def note(self, asked: Inconsistency, recorded: RecordedTransitions, *, in_vain: bool) -> None:
         """Take note of a question, and of whether no candidate was of use."""
-        earlier, later = _ends(asked, recorded)
-        self._asked.add((earlier.key, later.key))
+        earlier, later = map(str, asked.identity[2])
+        self._asked.add((earlier, later))
         deeds = _deeds(recorded)
-        self._shown.update(deeds[earlier.key] ^ deeds[later.key])
+        self._shown.update(deeds[earlier] ^ deeds[later])
         self._in_vain = self._in_vain + 1 if in_vain else 0
         if in_vain and self._in_vain % self._most == 0:
             self._next = _GROWTH * len(recorded)
@@ -152,13 +152,6 @@ def _question(
     )
 
 
-def _ends(asked: Inconsistency, recorded: RecordedTransitions) -> tuple[Observation, Observation]:
-    """The two pictures that are compared."""
-    first = asked.culprit if asked.since is None else asked.since
-    records = recorded.records
-    return records[first].transition.before, records[asked.culprit].transition.after
-
-
 def look_alikes(
     labeller: Labeller, vocabulary: Sequence[Predicate], asked: Inconsistency
 ) -> tuple[Scene, tuple[Observation, ...]]:
@@ -207,10 +200,10 @@ def _groups(
     groups = []
     for place in dict.fromkeys((earlier.before, record.after)):
         same = np.flatnonzero((states == states[place]).all(axis=1)).tolist()
-        own = deeds.get(observations[place].key, frozenset())
+        own = deeds[observations[place].key]
         unlike = sorted(
             (n for n in same if n != place),
-            key=lambda n: len(own ^ deeds.get(observations[n].key, frozenset())),
+            key=lambda n: len(own ^ deeds[observations[n].key]),
             reverse=True,
         )[:_ALIKE]
         groups.append([observations[n] for n in (place, *unlike)])

@@ -87,9 +87,9 @@ class Witnesses:
         before, after = record.transition.before, record.transition.after
         if not self._compares_changes:
             return [before]
-        if self._inconsistency.since is not None:
-            return [self._records[self._inconsistency.since].transition.before, after]
-        return [before, before if record.unchanged else after]
+        since = self._inconsistency.since
+        earlier = before if since is None else self._records[since].transition.before
+        return [earlier, before if record.unchanged else after]
 
     def _labels(self, number: int, predicate: Predicate) -> tuple[AtomSpace, Labels]:
         space = AtomSpace((predicate,), self._records[number].scene.objects)
