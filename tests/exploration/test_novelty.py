@@ -7,7 +7,7 @@ import pytest
 from barn import BARN, FULL, HELD, ON
 from notebook import Notebook
 
-from skillwrapper.exploration.novelty import Features, Novelty, see_features
+from skillwrapper.exploration.novelty import Earlier, Features, see_features
 from skillwrapper.learning.predictions import attempts_of
 
 
@@ -44,17 +44,17 @@ def test_what_is_seen_from_the_arguments(first, second, alike) -> None:
 
 def test_all_is_new_beside_nothing_and_nothing_beside_itself() -> None:
     own = seen(("held(a)", "a"), ("", "b"))
-    first = Novelty.of(own, own[:0])
+    first = Earlier(own[:0]).novelty(own)
     assert (first.alone == 1).all()
     assert (first.pairs == 1).all()
-    again = Novelty.of(own, own)
+    again = Earlier(own).novelty(own)
     assert (again.alone == 0).all()
     assert (again.pairs == 0).all()
 
 
 def test_known_things_in_a_new_combination_are_new_as_pairs_alone() -> None:
     own = seen(("held(a)", "a"), ("full(h)", "a"), ("full(h) held(a)", "a"))
-    found = Novelty.of(own[2:], own[:2])
+    found = Earlier(own[:2]).novelty(own[2:])
     assert found.alone.tolist() == [0.0]
     assert 0 < found.pairs[0] < 0.1
     assert np.isfinite(found.pairs).all()

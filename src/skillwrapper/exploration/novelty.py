@@ -93,11 +93,6 @@ class Novelty:
     alone: NDArray[np.float64]
     pairs: NDArray[np.float64]
 
-    @classmethod
-    def of(cls, seen: Features, earlier: Features) -> Novelty:
-        """Beside earlier attempts, of which there may be none."""
-        return Earlier(earlier).novelty(seen)
-
 
 class Earlier:
     """What earlier attempts saw, and what they saw together; worked out once.
